@@ -61,11 +61,13 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
     }
-    if loads.slope.is_some_and(|slope| slope.is_level) {
+    let is_pulled = loads.slope.is_some_and(|slope| slope.is_level);
+    if is_pulled {
         insert(out, vec![Cause::plain(UNKNOWN.id, UNKNOWN.name, ANSWER.changed)]);
         out.indistinguishable.pop();
     }
-    if is_unknown || out.ranked.first().is_some_and(|first| first.effect == UNKNOWN.id) {
+    let leads = || out.ranked.first().is_some_and(|first| first.effect == UNKNOWN.id);
+    if is_unknown || (is_pulled && leads()) {
         out.verdict = Verdict::Unknown;
     }
 }

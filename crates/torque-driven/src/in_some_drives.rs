@@ -57,7 +57,9 @@ fn tell(out: &mut Diagnosis, some: &[Run], others: &[Run]) {
         names(some),
         names(others)
     );
-    out.sentences.insert(out.sentences.len().min(1), sentence);
+    let told =
+        out.sentences.iter().rposition(|s| s.starts_with("Missing")).map_or(out.sentences.len().min(1), |k| k + 1);
+    out.sentences.insert(told, sentence);
 }
 
 #[cfg(test)]
