@@ -119,7 +119,7 @@ impl Problem<'_> {
         let pose = segments().any(|s| s.shows(Channel::ForwardVelocity));
         let mut all = variants_of(self.known, self.robot.chassis, pose);
         all.retain(|v| self.without != Some(v.spec().id));
-        // Two of them explain what has no name, where only the robot file says what is usual.
+        // Two of them explain what has no name, where only the robot file says what is usual; one is looked for in `later_side`.
         all.retain(|v| self.has_references || !matches!(v.place, Place::OnsetOfSide(_)));
         all.retain(|v| !self.same_robot || !catalogue::needs_a_hand(v.spec().id));
         all

@@ -1,7 +1,7 @@
 //! What begins at an instant, on one side.
 //!
 //! Without references an effect of one side that begins at an instant is no candidate of the screen: about constants that may be far
-//! off, two of them explain what has no name. Where an effect of both sides that begins was found, its instants are those of
+//! off, two of them explain what has no name. Such a one is looked for alone: where an effect of both sides that begins was found, its instants are those of
 //! something, and one side may be what begins there.
 
 use inference::hypothesis::{Place, Variant, variants_of};
@@ -40,6 +40,12 @@ pub(crate) fn include(problem: &Problem<'_>, origin: &Fitted, singles: &mut Vec<
         trial::include(singles, if k == 0 { polish(problem, &trial, FINALISTS.more_steps) } else { trial });
     }
     best_first(singles);
+}
+
+/// Whether a form of an effect is no member of several: two that begin, one of them on one side, explain what has no name where only the
+/// robot file says what is usual.
+pub(crate) fn is_alone(problem: &Problem<'_>, variant: &Variant) -> bool {
+    !problem.has_references && matches!(variant.place, Place::OnsetOfSide(_))
 }
 
 /// Usual values of an effect, with either sign where it may have both.

@@ -2,6 +2,7 @@
 
 use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::later_side;
 use crate::refits::{Places, Starts, begin, best_first, by_id, include_handed_over, polish};
 use crate::screen::screen;
 use crate::settings::search::{Finalists, Pairs, SETTINGS, Thirds};
@@ -22,7 +23,8 @@ pub(crate) fn pairs(problem: &Problem<'_>, singles: &[Trial], starts: Starts<'_>
         let id = spec.id;
         // A rare effect that is no better than a common one is not worth a search of its own.
         let behind = spec.rarity > 0.0 && !ids.is_empty();
-        if ids.contains(&id) || behind || !firsts.take(spec) {
+        let is_alone = later_side::is_alone(problem, &first.hypothesis.parts[0].0);
+        if ids.contains(&id) || behind || is_alone || !firsts.take(spec) {
             continue;
         }
         ids.push(id);
