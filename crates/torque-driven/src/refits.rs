@@ -6,7 +6,7 @@ use crate::candidate::Candidate;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::settings::search::{Finalists, Pairs, SETTINGS};
 use crate::trial::{Trial, include};
-use crate::{disc, handed_over, onset};
+use crate::{disc, handed_over, later_side, onset};
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const PAIRS: Pairs = SETTINGS.pairs;
@@ -153,7 +153,8 @@ pub(crate) fn converge_wholes(problem: &Problem<'_>, part: &Trial, wholes: &mut 
             whole.fitted = again;
         }
     }
-    if problem.constants_are_loose {
+    let is_alone = part.hypothesis.variants().any(|variant| later_side::is_alone(problem, variant));
+    if problem.constants_are_loose && !is_alone {
         include_handed_over(problem, &part.hypothesis, &part.fitted, wholes);
     }
     best_first(wholes);
