@@ -6,7 +6,7 @@
 //! * `clock`: clocks of car and pose that start or run apart.
 //! * `drive`: commands, pose and reports of a drive on one grid; held channels, clocks, gaps.
 //! * `model`: steering, drive, tyres and motion of the single-track car.
-//! * `rows`: windows of the pose and reports of the car against the model.
+//! * `rows`: windows of the pose and reports of the car against the model; `sensors`: whether gyro and encoder show one share of it.
 //! * `cause`, `solve`: the causes that drives may ask for, and drives as the shared fit takes them.
 //! * `forecast`, `left_out`, `rivals`: motion from throttle and steering alone on drives left out, beside classical models.
 //! * `file/*`: robot files of this kind, and drives from tables and from the messages of bags.
