@@ -12,8 +12,7 @@ const RULES: Sensors = SETTINGS.sensors;
 impl Shown<'_> {
     /// What a sensor should show by pose and laws, and what it shows, of rows in motion.
     fn beside_pose(&self, laws: &Laws, kind: Kind) -> Vec<[f64; 2]> {
-        let of = |(row, error): (&hierarchical_fit::Row, f64)| (row.kind != Kind::Pose).then_some((*row, error));
-        let errors = self.rows.iter().zip(self.errors_of(laws)).filter_map(of);
+        let errors = self.rows.iter().zip(self.errors_of(laws)).filter(|(row, _)| row.kind != Kind::Pose);
         let of_kind = errors.zip(self.shown_by_sensors()).filter(|((row, error), _)| {
             // No error is none where the pose says nothing.
             row.kind == kind && row.is_moving && *error != 0.0
