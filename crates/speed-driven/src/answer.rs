@@ -185,6 +185,13 @@ pub(super) fn limits(case: &SteadyCase, d: &Diagnosis) -> Vec<String> {
             "measured speeds scatter from row to row and are averaged ({told}): no change is timed better than that"
         ));
     }
+    if case.recordings.iter().any(|r| r.commanded.is_some()) {
+        out.push(
+            "how late and how far measured speeds follow set speeds is not looked into: `causality = \"command-driven\"` in the robot file \
+             asks for dead time, gains and limits"
+                .to_owned(),
+        );
+    }
     out.extend(unused(all().flat_map(|r| &r.unused)));
     if d.steady.as_ref().is_some_and(|s| s.ratios.iter().any(|r| r.other_speed)) {
         out.push("some straight loads are compared with references driven at another speed".to_owned());

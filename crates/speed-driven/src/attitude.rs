@@ -149,12 +149,13 @@ fn estimate(
     let slopes = |t: f64| sloping.iter().any(|[from, until]| *from <= t - typical_lag && t - typical_lag <= *until);
 
     // Forward: expect by the turning rates, correct by the loads.
+    let first_offset = if rates.is_zero_known { FILTER.first_offset } else { FILTER.unknown_offset };
     let mut x = State::zeros();
     let mut p = Square::from_diagonal(&State::from([
         FILTER.first_tilt * FILTER.first_tilt,
         FILTER.first_tilt * FILTER.first_tilt,
-        FILTER.first_offset * FILTER.first_offset,
-        FILTER.first_offset * FILTER.first_offset,
+        first_offset * first_offset,
+        first_offset * first_offset,
         rolling * rolling,
     ]));
     let mut steps: Vec<Step> = Vec::with_capacity(rows);

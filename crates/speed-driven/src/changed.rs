@@ -6,18 +6,31 @@ use crate::pieces::GRADE;
 use crate::run::SpeedRun;
 use crate::straight::readings;
 
+/// Times of straight driving on slopes, and of that beside them, s.
+fn on_and_off_slopes(run: &SpeedRun, found: &[LoadChange]) -> [Vec<f64>; 2] {
+    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
+    straight.iter().partition(|t| is_in(found, **t, true)).into()
+}
+
+/// Whether a time is on a slope, or in a change that is none.
+fn is_in(found: &[LoadChange], t: f64, slopes: bool) -> bool {
+    let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
+    found.iter().any(|c| is_slope(c) == slopes && c.interval[0] <= t && t <= c.interval[1])
+}
+
+/// Whether most straight driving is on slopes.
+pub(crate) fn slopes_lead(run: &SpeedRun, found: &[LoadChange]) -> bool {
+    let [sloping, level] = on_and_off_slopes(run, found);
+    sloping.len() > level.len()
+}
+
 /// Rows whose straight load is that of a change. What covers most of the straight driving is the load of the recording, but for
 /// slopes: the ground beside them is its ground, unless they are under most of it themselves.
 pub(crate) fn changed_rows(run: &SpeedRun, found: &[LoadChange]) -> Vec<bool> {
-    let inside = |t: f64, of_slopes: bool| {
-        let is_slope = |c: &LoadChange| c.causes == [GRADE] && !c.relative;
-        found.iter().any(|c| is_slope(c) == of_slopes && c.interval[0] <= t && t <= c.interval[1])
-    };
-    let straight: Vec<f64> = readings(run).iter().zip(&run.time).filter_map(|(r, t)| r.map(|_| *t)).collect();
-    let (sloping, level): (Vec<f64>, Vec<f64>) = straight.iter().partition(|t| inside(**t, true));
+    let [sloping, level] = on_and_off_slopes(run, found);
     let slopes_lead = sloping.len() > level.len();
-    let most = 2 * level.iter().filter(|t| inside(**t, false)).count() > level.len();
-    run.time.iter().map(|&t| !slopes_lead && inside(t, true) || !most && inside(t, false)).collect()
+    let most = 2 * level.iter().filter(|t| is_in(found, **t, false)).count() > level.len();
+    run.time.iter().map(|&t| !slopes_lead && is_in(found, t, true) || !most && is_in(found, t, false)).collect()
 }
 
 #[cfg(test)]

@@ -4,16 +4,15 @@
 //! turning rates: the slope under the robot ([`attitude`](super::attitude)), and what of the load is left after it.
 
 use crate::attitude::{Attitude, attitude};
-use crate::changed::changed_rows;
-use crate::jumps::jumps;
+use crate::jumps::{Tilt, jumps};
 use crate::level::levels;
-use crate::pieces::{ByClass, STANDING, Usual, class};
+use crate::pieces::{ByClass, Usual, class};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Pieces};
 use crate::slopes::{Slopes, slopes};
 use crate::straight::{Reading, readings};
 use inference::robust::median;
-use verdict::{Changes, Hidden, LoadChange, Standstill};
+use verdict::{Changes, Hidden};
 
 const PIECES: Pieces = CHANGES.pieces;
 
@@ -54,10 +53,17 @@ fn usual_of(run: &SpeedRun, (readings, level): (&[Option<Reading>], &[f64]), usu
     })
 }
 
-/// Changes of the straight load in a recording. `usual` are the references' loads, `weight` is `m g r`, N m.
+/// Changes of the straight load in a recording.
+#[cfg(test)]
 pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
+    inside(run, usual, weight).0
+}
+
+/// Changes of the straight load in a recording, and its attitude where the turning rates are known. `usual` are the references'
+/// loads, `weight` is `m g r`, N m.
+pub(crate) fn inside(run: &SpeedRun, usual: &Usual, weight: f64) -> (Changes, Option<Attitude>) {
     let readings = readings(run);
-    let Some(any) = usual.any() else { return Changes::default() };
+    let Some(any) = usual.any() else { return Default::default() };
     let period = run.period();
     let found = attitude(run, &readings, any, weight, &[]);
     let slopes = found.as_ref().map_or_else(Slopes::default, |s| slopes(run, s));
@@ -90,54 +96,10 @@ pub(crate) fn changes(run: &SpeedRun, usual: &Usual, weight: f64) -> Changes {
         let by_angle = |slope: &Attitude| slope.sigma[i].hypot(CHANGES.slopes.losses * slope.pitch[i]);
         if is_sloping(run.time[i]) { weight * slope.as_ref().map_or(0.0, by_angle) } else { 0.0 }
     };
-    let pull_sigma: Option<&dyn Fn(usize) -> f64> = slope.is_some().then_some(&pull_sigma);
-    found.extend(jumps(run, &rest, &level, &usual, weight, pull_sigma));
-    Changes { found, tentative: slopes.tentative, hidden: hidden(run, &readings) }
-}
-
-/// Finds the changes of the straight load inside these recordings, and marks their rows so that the load of the whole
-/// recording is measured without them. A change that covers most of the straight driving is not marked: it is that load.
-/// Also where bodies stand that nothing but pushing against something explains: those rows are left out of all else.
-pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Changes, Vec<Standstill>) {
-    let mut out = Changes::default();
-    let mut standing = Vec::new();
-    for run in runs {
-        let mut own = changes(run, usual, weight);
-        let (blocked, found): (Vec<_>, Vec<_>) = own.found.into_iter().partition(|c| c.causes == [STANDING]);
-        own.found = found;
-        for c in blocked {
-            standing.push(against_something(run, &c));
-        }
-        run.changed = changed_rows(run, &own.found);
-        out.found.extend(own.found);
-        out.tentative.extend(own.tentative);
-        out.hidden.extend(own.hidden);
-    }
-    (out, standing)
-}
-
-/// A change of the straight load as a body that stands; marks its rows.
-fn against_something(run: &mut SpeedRun, change: &LoadChange) -> Standstill {
-    let [from, until] = [change.onset[1], change.end[0]];
-    let mut sum = [0.0; 2];
-    let mut rows = 0_usize;
-    for i in (0..run.time.len()).filter(|&i| from <= run.time[i] && run.time[i] <= until) {
-        run.standing[i] = true;
-        rows += 1;
-        for (sum, torque) in sum.iter_mut().zip(&run.torque) {
-            *sum += torque[i].abs();
-        }
-    }
-    let load = sum[0].max(sum[1]) / rows.max(1) as f64;
-    Standstill {
-        recording: run.name.clone(),
-        interval: [from, until],
-        share: None,
-        wheels: None,
-        side: None,
-        load,
-        straight: None,
-    }
+    let is_levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
+    let tilt = slope.as_ref().map(|a| Tilt { pull_sigma: &pull_sigma, is_levelled, turned: &a.turned });
+    found.extend(jumps(run, &rest, &level, &usual, weight, tilt.as_ref()));
+    (Changes { found, tentative: slopes.tentative, hidden: hidden(run, &readings) }, slope)
 }
 
 /// Driving that shows no straight load for a while.
@@ -155,8 +117,9 @@ fn hidden(run: &SpeedRun, readings: &[Option<Reading>]) -> Vec<Hidden> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pieces::{GRADE, ROLLING};
+    use crate::pieces::{GRADE, ROLLING, UNLISTED};
     use crate::testing::{Leg, STRAIGHT, WEIGHT, drive, levelled};
+    use verdict::LoadChange;
 
     const USUAL: Usual = Usual { load: [Some(STRAIGHT), None, None], unequal: PIECES.alike };
 
@@ -285,6 +248,36 @@ mod tests {
     }
 
     #[test]
+    fn a_zero_of_the_gyro_that_nobody_knows_is_no_slope() {
+        let mut run = drive(&[Leg::straight(60.0)], true);
+        let rates = run.body_rates.as_mut().expect("three rates");
+        rates.rate[1].iter_mut().for_each(|rate| *rate += 0.35_f64.to_radians());
+        assert!(!changes(&run, &USUAL, WEIGHT).found.is_empty(), "a zero that is known to be right is a slope");
+        run.body_rates.as_mut().expect("three rates").is_zero_known = false;
+        assert_eq!(changes(&run, &USUAL, WEIGHT).found, []);
+    }
+
+    #[test]
+    fn where_no_slope_shows_a_load_below_any_friction_is_a_push_and_a_pull_one_way_is_no_ground() {
+        let pushed = [Leg::straight(30.0), Leg { straight: 0.0, ..Leg::straight(15.0) }, Leg::straight(30.0)];
+        let causes = |run: &SpeedRun| -> Vec<_> {
+            let found = changes(run, &USUAL, WEIGHT).found;
+            found.iter().map(|c| c.causes.clone()).collect()
+        };
+        assert_eq!(causes(&levelled(&pushed, 0.0)), [vec![UNLISTED]]);
+        assert_eq!(causes(&drive(&pushed, true)), [vec![UNLISTED]], "the nose would have sunk");
+        // Turned onto, rates show no ramp.
+        let onto = [Leg::straight(30.0), Leg::turn(8.0), Leg { straight: 0.0, ..Leg::straight(15.0) }];
+        assert_eq!(causes(&drive(&onto, true)), [vec![GRADE]]);
+
+        // Held back one way, pushed the other, on ground that is level all the time.
+        let pull = |leg: Leg, straight: f64| Leg { straight: straight * STRAIGHT, ..leg };
+        let back = Leg { speed: [-0.24; 2], ..Leg::straight(15.0) };
+        let wind = [Leg::straight(30.0), pull(Leg::straight(15.0), 1.9), Leg::straight(12.0), pull(back, 0.45)];
+        assert_eq!(causes(&levelled(&wind, 0.0)), [vec![UNLISTED], vec![UNLISTED]]);
+    }
+
+    #[test]
     fn a_roll_that_drifts_is_no_slope_once_the_robot_has_turned() {
         // The roll rate is off for a second before a turn of 90°, which makes the roll a pitch.
         let legs = [Leg::straight(30.0), Leg::turn(7.5), Leg::straight(2.0), Leg::turn(7.5), Leg::straight(30.0)];
@@ -336,51 +329,6 @@ mod tests {
         let legs = [Leg::straight(30.0), soft.slope(6.0), Leg::straight(30.0)];
         let all = changes(&levelled(&legs, 0.0), &USUAL, WEIGHT).found;
         assert!(all.iter().any(|c| c.causes == [GRADE]) && all.iter().any(|c| c.causes == [ROLLING]), "{all:?}");
-    }
-
-    #[test]
-    fn what_covers_most_of_a_recording_is_its_load() {
-        let climb = |seconds: f64| levelled(&[Leg::straight(30.0), Leg::straight(seconds).slope(5.0)], 0.0);
-        let changed = |run: SpeedRun| {
-            let mut runs = [run];
-            assert_eq!(mark(&mut runs, &USUAL, WEIGHT).0.found.len(), 1);
-            runs[0].changed.iter().any(|c| *c)
-        };
-        assert!(changed(climb(12.0)) && !changed(climb(60.0)));
-    }
-
-    #[test]
-    fn a_robot_that_pushes_against_something_stands() {
-        // Tyres hold half of its weight.
-        let pushing = Leg { straight: STRAIGHT + 0.5 * WEIGHT, ..Leg::straight(20.0) };
-        let legs = [Leg::straight(30.0), pushing, Leg::straight(30.0)];
-        let mut runs = [drive(&legs, true)];
-        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
-        assert_eq!(changes.found, []);
-        let [one] = &standing[..] else { panic!("{standing:?}") };
-        assert!(near([one.interval[0], one.interval[0]], 30.0) && one.share.is_none(), "{one:?}");
-        assert!(runs[0].standing.iter().any(|stands| *stands));
-        // Without turning rates it may be a steep slope as well.
-        let without = found(&legs, false);
-        assert_eq!(without.iter().map(|c| c.causes.clone()).collect::<Vec<_>>(), [vec![GRADE, STANDING]]);
-        // Not where it would climb 53 degrees.
-        let harder = Leg { straight: STRAIGHT + 0.8 * WEIGHT, ..Leg::straight(20.0) };
-        let legs = [Leg::straight(30.0), harder, Leg::straight(30.0)];
-        let mut runs = [drive(&legs, false)];
-        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
-        assert_eq!((changes.found, standing.len()), (Vec::new(), 1));
-    }
-
-    #[test]
-    fn a_robot_that_pushes_longer_than_it_drives_stands_too() {
-        // All that is driven straight beside it takes less than the currents show.
-        let pushing = Leg { straight: STRAIGHT + 0.5 * WEIGHT, ..Leg::straight(20.0) };
-        let legs = [Leg::turn(10.0), pushing, Leg::turn(10.0), Leg { straight: 0.2 * STRAIGHT, ..Leg::straight(8.0) }];
-        let mut runs = [drive(&legs, true)];
-        let (changes, standing) = mark(&mut runs, &USUAL, WEIGHT);
-        assert_eq!(standing.len(), 1, "{:?}", changes.found);
-        let [from, until] = standing[0].interval;
-        assert!((9.0..12.0).contains(&from) && near([until, until], 30.0), "{standing:?}");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, wheel_radius
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{
     Cause, Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
-    TurningChange, Verdict,
+    TurningChange, Verdict, WrongSpeed,
 };
 
 use crate::cause::cause;
@@ -57,6 +57,10 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
         insert(out, vec![gyro_beside_pose::cause(gyro)]);
         out.indistinguishable.rotate_right(1);
     }
+    for cause in wrong_encoders(&loads.wrong_speeds) {
+        insert(out, vec![cause]);
+        out.indistinguishable.rotate_right(1);
+    }
     if let Some(cause) = standing(&loads.standstills) {
         insert(out, vec![cause]);
         out.indistinguishable.rotate_right(1);
@@ -64,10 +68,9 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     let is_pulled = loads.slope.is_some_and(|slope| slope.is_level);
     if is_pulled {
         insert(out, vec![Cause::plain(UNKNOWN.id, UNKNOWN.name, ANSWER.changed)]);
-        out.indistinguishable.pop();
     }
     let leads = || out.ranked.first().is_some_and(|first| first.effect == UNKNOWN.id);
-    if is_unknown || (is_pulled && leads()) {
+    if is_unknown || leads() {
         out.verdict = Verdict::Unknown;
     }
 }
@@ -310,6 +313,25 @@ fn standing(all: &[Standstill]) -> Option<Cause> {
     })
 }
 
+/// Encoders that show another speed of a side than there is, each side with all its stretches and the size of the longest.
+fn wrong_encoders(all: &[WrongSpeed]) -> Vec<Cause> {
+    let seconds = |w: &&WrongSpeed| w.interval[1] - w.interval[0];
+    let of_side = |side: usize| {
+        let side = inference::words::side(side);
+        let own = || all.iter().filter(|w| w.side == side);
+        let longest = own().max_by(|a, b| seconds(a).total_cmp(&seconds(b)))?;
+        Some(Cause {
+            magnitude: Some(longest.share - 1.0),
+            sigma: Some(longest.half / NINETY),
+            unit: encoder_scale::SPEC.parameters[0].unit.into(),
+            side: Some(side.into()),
+            intervals: Some(by_recording(own().map(|w| (w.recording.as_str(), w.interval)))),
+            ..Cause::plain(encoder_scale::SPEC.id, &format!("{}: {side}", encoder_scale::SPEC.name), ANSWER.changed)
+        })
+    };
+    (0..2).filter_map(of_side).collect()
+}
+
 /// Where the causes of the loads are, if these are the loads of grounds inside recordings.
 pub(crate) fn locate(out: &mut Diagnosis, loads: &Loads) {
     let intervals = by_recording(loads.grounds.iter().map(|g| (g.recording.as_str(), g.interval)));
@@ -334,7 +356,10 @@ fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<
 fn insert(out: &mut Diagnosis, class: Vec<Cause>) {
     let ids: Vec<String> = class.iter().map(|c| c.effect.clone()).collect();
     out.indistinguishable.retain(|known| *known != ids);
-    out.indistinguishable.push(ids);
+    // What is not listed is no name that could be confused with another.
+    if ids != [UNKNOWN.id] {
+        out.indistinguishable.push(ids);
+    }
     let left = 1.0 - class.iter().map(|c| c.probability).sum::<f64>().min(1.0);
     for none in out.ranked.iter_mut().filter(|c| c.effect == NONE.id) {
         none.probability = none.probability.min(left);

@@ -9,7 +9,7 @@ use inference::gyro_beside_pose;
 use inference::words::quantity;
 use robot_model::effects::{gyro_scale, wheel_radius_mismatch};
 use verdict::{
-    Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict,
+    Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed,
 };
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
@@ -32,7 +32,8 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let slope: Vec<String> = loads.slope.iter().map(|s| under_all(s, theirs)).collect();
     let gyro: Vec<String> = loads.gyro.iter().filter(|gyro| gyro.is_off).map(gyro_beside_pose::told).collect();
     let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
-    let leads = [&standing, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
+    let encoders: Vec<String> = wrong_encoders(&loads.wrong_speeds);
+    let leads = [&standing, &encoders, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
     let rest = match of_loads {
         Verdict::Explained => located(disagreeing(loads, theirs, named(d, loads)), loads),
         Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
@@ -41,7 +42,29 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
             if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
         }
     };
-    [standing, gyro, drift, slope, rest].concat()
+    [standing, encoders, gyro, drift, slope, rest].concat()
+}
+
+/// Encoders that show another speed of a side than there is.
+fn wrong_encoders(all: &[WrongSpeed]) -> Vec<String> {
+    let one = |w: &WrongSpeed| {
+        let [from, until] = w.interval;
+        format!(
+            "{:.3} ± {:.3} (90 %) of its speed on the {} in {} from {from:.1} s to {until:.1} s",
+            w.share,
+            w.half,
+            w.side,
+            recordings(&w.recording)
+        )
+    };
+    if all.is_empty() {
+        return Vec::new();
+    }
+    vec![format!(
+        "Wrong wheel speed: an encoder shows {}, while the other side follows what is set and the body turns as is set: it loses counts, or \
+         its scale changed. Nothing else here uses these rows; mend the encoder, and change nothing of the simulation for it.",
+        all.iter().map(one).collect::<Vec<_>>().join(", ")
+    )]
 }
 
 /// A side whose wheels roll as if they had another radius.

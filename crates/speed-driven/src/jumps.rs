@@ -1,7 +1,7 @@
 //! Jumps of the straight load, by currents.
 
 use crate::heading::{apart, directions};
-use crate::pieces::{ByClass, GRADE, ROLLING, STANDING, class, pieces};
+use crate::pieces::{ByClass, GRADE, ROLLING, STANDING, UNLISTED, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, NAMING, changes::Jumps};
 use crate::straight::{Reading, reads_nothing};
@@ -9,21 +9,43 @@ use inference::robust::NINETY;
 use verdict::LoadChange;
 
 const JUMPS: Jumps = CHANGES.jumps;
+const NO_SLOPE: &str = "the gyro shows no slope that would explain it";
 /// Factor by which the straight load varies without a cause.
 const UNNAMED: f64 = NAMING.priors.unnamed_straight;
 
-/// Jumps of the load, from currents. `pull_sigma`: what slopes pull was taken away, and one sigma of that at a row, N m;
-/// `None` where nothing tells slopes.
+/// What tells slopes beside the loads, whose pull was taken off these.
+pub(super) struct Tilt<'a> {
+    /// One sigma of that pull at a row, N m.
+    pub(super) pull_sigma: &'a dyn Fn(usize) -> f64,
+    /// Whether an accelerometer shows how the body tilts; turning rates show only where that changes.
+    pub(super) is_levelled: bool,
+    /// How far the body has turned about its vertical axis at the rows, rad.
+    pub(super) turned: &'a [f64],
+}
+
+impl Tilt<'_> {
+    /// Whether a slope under a stretch of rows would have shown, between what was driven straight before and after it: turning rates
+    /// do not see one on which the robot begins, or that it turns onto.
+    fn would_show(&self, run: &SpeedRun, [first, last]: [usize; 2], [before, after]: [Option<usize>; 2]) -> bool {
+        let [_, far] = CHANGES.slopes.ramp;
+        let is_straight_onto = |a: usize, b: usize| {
+            run.time[b] - run.time[a] <= far && (self.turned[b] - self.turned[a]).abs() <= CHANGES.slopes.turned
+        };
+        let at_ends = [before.map(|i| [i, first]), after.map(|i| [last, i])];
+        self.is_levelled || at_ends.into_iter().flatten().any(|[a, b]| is_straight_onto(a, b))
+    }
+}
+
+/// Jumps of the load, from currents.
 pub(super) fn jumps(
     run: &SpeedRun,
     readings: &[Option<Reading>],
     level: &[f64],
     usual: &ByClass,
     weight: f64,
-    pull_sigma: Option<&dyn Fn(usize) -> f64>,
+    tilt: Option<&Tilt<'_>>,
 ) -> Vec<LoadChange> {
     let period = run.period();
-    let after_slope = pull_sigma.is_some();
     let base = |i: usize| usual[class(run.forward(i).abs())].unwrap_or(level[i]);
     let changed = |i: &usize| (level[*i] - base(*i)).abs() > (1.0 - 1.0 / UNNAMED) * base(*i);
     let seen: Vec<usize> = (0..level.len()).filter(|&i| readings[i].is_some()).collect();
@@ -68,7 +90,7 @@ pub(super) fn jumps(
             }
 
             // On a slope the excess may be what its pull was taken for too little or too much.
-            let of_pull = pull_sigma.map_or(0.0, |sigma| mean(&|i| sigma(i)));
+            let of_pull = tilt.map_or(0.0, |tilt| mean(&|i| (tilt.pull_sigma)(i)));
             let half = NINETY * (JUMPS.scatter * from).hypot(of_pull);
             if of_pull > 0.0 && (load - from).abs() < half {
                 continue;
@@ -78,12 +100,15 @@ pub(super) fn jumps(
             let nothing = piece.iter().filter(|&&i| reads_nothing(run, i)).count() as f64 * period;
             let below = load < JUMPS.below_friction * from || nothing >= JUMPS.below_seconds && load < from / UNNAMED;
             let blocked = !bound && load - from > JUMPS.blocked * weight;
+            let would_show = tilt.is_some_and(|tilt| tilt.would_show(run, [first, last], [before, after]));
             let (causes, reason) = if blocked {
                 let climbs = load - from <= JUMPS.climbed * weight;
-                let slope = if after_slope || !climbs { None } else { Some(GRADE) };
+                let slope = if tilt.is_some() || !climbs { None } else { Some(GRADE) };
                 (slope.into_iter().chain([STANDING]).collect(), "no ground resists rolling that much by itself")
-            } else if after_slope {
-                (vec![ROLLING], "the gyro shows no slope that would explain it")
+            } else if below && would_show {
+                (vec![UNLISTED], "the load is below any friction, and no slope shows: something pushes the robot")
+            } else if would_show {
+                (vec![ROLLING], NO_SLOPE)
             } else if below {
                 (vec![GRADE], "the load is below any friction, so the robot runs downhill")
             } else {
@@ -112,9 +137,7 @@ pub(super) fn jumps(
     if may_be_offset {
         out.clear();
     }
-    if !after_slope {
-        decide_by_heading(run, &mut out);
-    }
+    decide_by_heading(run, &mut out);
     out
 }
 
@@ -126,7 +149,8 @@ fn is_other_way(run: &SpeedRun, piece: &[usize], before: Option<usize>, after: O
     is_one_way && beside.peek().is_some() && beside.all(|i| run.forward(i) * way < 0.0)
 }
 
-/// A slope depends on the heading, the ground does not: changes driven both ways tell them apart.
+/// A slope depends on the heading, the ground does not: changes driven both ways tell them apart. Where no slope shows, what changes the
+/// load the opposite way on the way back is neither.
 fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
     let Some(directions) = directions(run) else { return };
     // Direction of travel in the middle of a change.
@@ -134,6 +158,16 @@ fn decide_by_heading(run: &SpeedRun, found: &mut [LoadChange]) {
         let i = run.time.partition_point(|t| *t < 0.5 * (c.interval[0] + c.interval[1]));
         directions[i.min(directions.len() - 1)]
     };
+    // Of what is below a bound it is known that it is less.
+    let all: Vec<(f64, f64)> = found.iter().map(|c| (direction(c), c.slope)).collect();
+    for change in found.iter_mut().filter(|c| c.causes == [ROLLING]) {
+        let (own, slope) = (direction(change), change.slope);
+        if all.iter().any(|o| apart(o.0, own) > JUMPS.way_back && o.1 * slope < 0.0) {
+            change.causes = vec![UNLISTED];
+            change.reason =
+                "driven the other way, the load changes the opposite way, and no slope shows: something pulls the robot".into();
+        }
+    }
     // A bound says neither that loads are alike nor that they are opposite.
     let seen: Vec<(f64, f64)> = found.iter().filter(|c| !c.bound).map(|c| (direction(c), c.slope)).collect();
     for change in found.iter_mut().filter(|c| c.causes.len() > 1 && !c.bound) {

@@ -8,7 +8,8 @@
 //!
 //! * `run`, `stamps`, `body_rates`, `clock`: speeds and currents of a recording; a gyro on another clock, aligned by the
 //!   turns; an accelerometer.
-//! * `standstill`: a robot that stands although it is commanded to drive; its rows leave all else.
+//! * `standstill`: a robot that stands although it is commanded to drive, `encoders`: one that shows another speed of a side than there is;
+//!   such rows leave all else.
 //! * `extract`: loads of steady stretches, each with its standard error or why it is withheld.
 //! * `compare`: loads over those of the references.
 //! * `model`, `comparison`, `name`: loads that the plant predicts, and which effects could make them differ.
@@ -21,7 +22,8 @@
 //!   sensors read when nothing flows, and a gyro while the robot stands.
 //! * `power`: signs of torques that no robot can have.
 //! * `plane`, `directed_pull`: one slope under all driving, by loads and directions of travel.
-//! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`: rows that show that.
+//! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`, `marking`: rows that show that; `slope_pull`: what a slope pulls,
+//!   taken off.
 //! * `drift`: a side whose wheels roll as if they had another radius.
 //! * `scrub`, `turning`: turning on other ground, turning without a gyro.
 //! * `grounds`, `groups`, `ground`: several grounds in one recording or in several, soft ground as one cause.
@@ -41,6 +43,7 @@ mod compare;
 mod comparison;
 mod directed_pull;
 mod drift;
+mod encoders;
 mod extract;
 mod forecast;
 mod found;
@@ -54,6 +57,7 @@ mod headline;
 mod jumps;
 mod law;
 mod level;
+mod marking;
 mod model;
 mod mounting;
 mod name;
@@ -68,6 +72,7 @@ mod run;
 mod scrub;
 mod sentences;
 mod settings;
+mod slope_pull;
 mod slopes;
 mod speeds;
 mod stamps;
@@ -179,8 +184,9 @@ pub fn diagnose_steady(
     for w in &mut withheld {
         w.recording = format!("reference {}", w.recording);
     }
-    let mut standstills =
-        standstill::mark(&mut marked.recordings, track_of(&references(&reference_loads)).unwrap_or(of_file));
+    let track = track_of(&references(&reference_loads)).unwrap_or(of_file);
+    let wrong_speeds = encoders::mark(&marked.references, &mut marked.recordings, track);
+    let mut standstills = standstill::mark(&mut marked.recordings, track);
 
     let by_file = case.references.is_empty();
     let references_of = |loads: &[Load]| {
@@ -197,12 +203,12 @@ pub fn diagnose_steady(
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
     let weight = case.weight(&robot);
     let slope = plane::take_off(&mut marked.recordings, &usual, weight);
-    let (changes, pushing) = changes::mark(&mut marked.recordings, &usual, weight.0);
+    let (changes, pushing) = marking::mark(&mut marked.recordings, &usual, weight.0);
     let side_changes = one_side::mark(&mut marked.recordings);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
-    if refs.is_empty() && standstills.is_empty() && slope.is_none() {
+    if refs.is_empty() && standstills.is_empty() && wrong_speeds.is_empty() && slope.is_none() {
         withheld.extend(not_given);
         let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
         return Err(DiagnosisError::TooCalm { reason });
@@ -215,7 +221,7 @@ pub fn diagnose_steady(
     progress("looking into the recordings");
     let as_on_references = tuned(&robot, &case.sigma, &calibrated.theta);
     let found_inside = within(&marked, &as_on_references, &refs, reference_loads.clone());
-    let mut loads = Loads { standstills, changes, slope, side_changes, ..found_inside };
+    let mut loads = Loads { standstills, wrong_speeds, changes, slope, side_changes, ..found_inside };
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     one_side::drop_what_shows_it(&mut loads);

@@ -11,6 +11,8 @@ const CLASSES: [f64; 4] = MEASURING.stretches.classes;
 /// Ids of what changes the straight load.
 pub(crate) const GRADE: Word = Word::Borrowed(grade::SPEC.id);
 pub(crate) const ROLLING: Word = Word::Borrowed(rolling_resistance::SPEC.id);
+/// What no effect of the catalogue does.
+pub(crate) const UNLISTED: Word = Word::Borrowed(catalogue::answer::UNKNOWN.id);
 /// A robot whose wheels are driven on and that stands.
 pub(crate) const STANDING: Word = Word::Borrowed(catalogue::speed_driven::STANDING.id);
 

@@ -12,7 +12,8 @@ use crate::heading::{apart, directions, headings};
 use crate::pieces::{Usual, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, changes::Jumps, changes::Plane};
-use crate::straight::{Reading, is_straight, readings};
+use crate::slope_pull::take_off_row;
+use crate::straight::{Reading, readings};
 
 const PLANE: Plane = CHANGES.plane;
 const JUMPS: Jumps = CHANGES.jumps;
@@ -70,10 +71,12 @@ enum Tilts {
 /// Whether the body tilts as a slope of so many degrees under all driving makes it, where an accelerometer shows that.
 fn tilts(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> Tilts {
     // What a slope leaves of the tilts, what is seen there, what level ground leaves, and the slope's own, each less the lean
-    // of an accelerometer, which shows in all directions.
+    // of an accelerometer, which shows in all headings.
     let of_run = |(stretches, uphill): (&Vec<Stretch>, &Option<f64>)| -> Vec<[f64; 4]> {
         let Some(uphill) = uphill else { return Vec::new() };
-        let pair = |s: &Stretch| Some([s.tilt?, degrees.to_radians() * (s.direction - uphill).cos()]);
+        // Along the body, in which an accelerometer leans, whichever way it goes.
+        let pair =
+            |s: &Stretch| Some([s.tilt?, degrees.to_radians() * (s.direction - uphill).cos()].map(|x| s.way * x));
         let pairs: Vec<[f64; 2]> = stretches.iter().filter_map(pair).collect();
         let lean = |of: &dyn Fn(&[f64; 2]) -> f64| {
             if pairs.len() < PLANE.leans_from { 0.0 } else { mean(pairs.iter().map(of)).unwrap_or(0.0) }
@@ -172,38 +175,13 @@ fn keep_spins(runs: &mut [SpeedRun]) {
     }
 }
 
-/// Takes what the slope pulls off the torques. Rows at which a side shows nothing because
-/// the slope drives it say nothing and are left out.
+/// Takes what the slope pulls off the torques.
 fn level(runs: &mut [SpeedRun], found: &Found, usual: &Usual, weight: f64) {
     let pull = pull_of(weight, found.told.slope);
     for (run, uphill) in runs.iter_mut().zip(&found.uphill) {
         let (Some(heading), Some(uphill)) = (headings(run), uphill) else { continue };
         for (i, heading) in heading.iter().enumerate() {
-            let own = 0.5 * pull * (heading - uphill).cos();
-            // Along the turning of each side: sides that turn against each other are driven one by one.
-            let along = [0, 1].map(|j| own * run.speed[j][i].signum());
-            if (0..2).any(|j| along[j] < 0.0 && !run.reads(i, j)) {
-                run.standing[i] = true;
-                continue;
-            }
-            // Without a sign a side that is driven beyond what it resists reads what it holds back. Spins resist more than any slope pulls;
-            // in an arc nothing says what the inner side would read.
-            let expected = usual.load[class(run.forward(i).abs())].or(usual.any()).unwrap_or(0.0);
-            let is_spin = run.speed[0][i] * run.speed[1][i] < 0.0;
-            let holds_back = along.map(|along| run.magnitude_only && !is_spin && 0.5 * expected + along < 0.0);
-            if holds_back.contains(&true) && !is_straight(run, i, MEASURING.straight.hold) {
-                run.standing[i] = true;
-                continue;
-            }
-            for j in 0..2 {
-                let torque = run.torque[j][i];
-                if !run.magnitude_only {
-                    run.torque[j][i] = torque - own;
-                } else if run.reads(i, j) {
-                    let shown = if holds_back[j] { -torque.abs() } else { torque.abs() };
-                    run.torque[j][i] = (shown - along[j]).max(0.0);
-                }
-            }
+            take_off_row(run, i, pull * (heading - uphill).cos(), usual);
         }
         // What is left of turning rates about the other axes is the slope's.
         (run.body_rates, run.level) = (None, None);

@@ -24,7 +24,8 @@ pub(crate) fn track_of_file(robot: &Robot<f64>) -> f64 {
 /// `track` in m.
 pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
     let Some(yaw) = &run.yaw_rate else { return Vec::new() };
-    let commanded = |i: usize| run.difference(i).abs() > STUCK.turn;
+    // Of rows whose speeds are wrong nobody knows.
+    let commanded = |i: usize| run.difference(i).abs() > STUCK.turn && !run.standing[i];
     let share = |i: usize| yaw[i] * track / run.difference(i);
     // What was commanded one way for a while, and what came of it.
     let answered = |i: usize| {
@@ -135,7 +136,9 @@ pub(crate) fn mark(runs: &mut [SpeedRun], track: f64) -> Vec<Standstill> {
         let mut found = standstills(run, track);
         found.extend(held_wheels(run));
         let stands = |t: f64| found.iter().any(|s| s.interval[0] <= t && t <= s.interval[1]);
-        run.standing = run.time.iter().map(|t| stands(*t)).collect();
+        for (standing, t) in run.standing.iter_mut().zip(&run.time) {
+            *standing |= stands(*t);
+        }
         out.extend(found);
     }
     out

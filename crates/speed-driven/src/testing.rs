@@ -85,6 +85,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         time: grid,
         step: RATE_STEP,
         level: None,
+        is_zero_known: true,
     });
     SpeedRun {
         name: "run".to_owned(),

@@ -68,7 +68,7 @@ pub use retuned::Retuned;
 pub use simulator::SimulatorConstants;
 pub use trace::{Compared, Trace, instant, rounded};
 pub use trial::Trial;
-pub use turning::{ClockError, GyroBesidePose, SideDrift};
+pub use turning::{ClockError, GyroBesidePose, SideDrift, WrongSpeed};
 
 /// The README's snippet, run as a test.
 #[cfg(doctest)]

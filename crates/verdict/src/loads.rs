@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{ClockError, FreeRun, GyroBesidePose, SideDrift, Word};
+use crate::{ClockError, FreeRun, GyroBesidePose, SideDrift, Word, WrongSpeed};
 
 /// Loads of a speed-driven case.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -48,6 +48,9 @@ pub struct Loads {
     pub turning: Vec<Turning>,
     /// Wheels that were commanded to turn a body that did not.
     pub standstills: Vec<Standstill>,
+    /// Stretches in which the encoder of a side shows another speed than there is; they leave all else.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wrong_speeds: Vec<WrongSpeed>,
     /// Forecasts of the recordings' last thirds.
     pub forecasts: Vec<Forecast>,
     /// Clocks that were aligned by the turns.

@@ -28,6 +28,21 @@ pub struct SideDrift {
     pub side: Option<Word>,
 }
 
+/// A stretch in which the encoder of one side shows another speed than there is: the body turns as is set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WrongSpeed {
+    /// Name of the recording.
+    pub recording: String,
+    /// From and until, s.
+    pub interval: [f64; 2],
+    /// The side.
+    pub side: Word,
+    /// What it shows over what there is.
+    pub share: f64,
+    /// Half of its 90 % interval.
+    pub half: f64,
+}
+
 /// The gyro's clock of a recording against that of the speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ClockError {
