@@ -45,6 +45,20 @@ pub const COUNTS_CLOCK_OFFSET: CauseSpec = CauseSpec {
     resembles: "cornering_slip in steady curves",
 };
 
+/// A wheel with rollers is out of alignment.
+pub const DIRECTION_OF_ONE_WHEEL: CauseSpec = CauseSpec {
+    id: "direction_of_one_wheel",
+    name: "direction of one wheel",
+    robots: ROBOTS,
+    meaning: "An omni or mecanum wheel is mounted, or bent, at an angle to the direction in which it \
+        should roll, so that its turns move the body another way.",
+    size: "angle to the stated direction, positive to the left",
+    unit: "rad",
+    recognised: "The body goes aside, or turns, in the directions in which this wheel turns most",
+    revealed_by: "straight lines along and across and turns on the spot, both ways",
+    resembles: "radius_of_one_wheel in drives that go one way; pose_mounting where all wheels are turned alike",
+};
+
 /// Radius of all wheels, gear or counts per turn.
 pub const RADIUS_OF_ALL_WHEELS: CauseSpec = CauseSpec {
     id: "radius_of_all_wheels",
@@ -239,12 +253,13 @@ pub const GYRO_BIAS: CauseSpec = CauseSpec {
 };
 
 /// All of them, from the count to the pose.
-pub const ALL: [&CauseSpec; 17] = [
+pub const ALL: [&CauseSpec; 18] = [
     &LOST_COUNTS,
     &CLOCK_RATE,
     &COUNTS_CLOCK_OFFSET,
     &RADIUS_OF_ALL_WHEELS,
     &RADIUS_OF_ONE_WHEEL,
+    &DIRECTION_OF_ONE_WHEEL,
     &WHEEL_DISTANCE,
     &STEERING_ZERO,
     &STEERING_GAIN,

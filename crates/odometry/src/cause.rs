@@ -19,6 +19,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
         let spec = match constant.quantity {
             Quantity::Radius(_) if radii.len() < 2 => continue,
             Quantity::Radius(_) => &spec::RADIUS_OF_ONE_WHEEL,
+            Quantity::Direction(_) => &spec::DIRECTION_OF_ONE_WHEEL,
             Quantity::Across | Quantity::Along | Quantity::Reach => &spec::WHEEL_DISTANCE,
             Quantity::SteeringOffset => &spec::STEERING_ZERO,
             Quantity::SteeringGain => &spec::STEERING_GAIN,
@@ -35,7 +36,7 @@ pub(crate) fn causes(robot: &WheeledRobot, constants: &[Constant]) -> Vec<Cause>
             Quantity::GyroBias => &spec::GYRO_BIAS,
         };
         let of = match constant.quantity {
-            Quantity::Radius(wheel) => Some(robot.wheels[measured[wheel]].name.clone()),
+            Quantity::Radius(wheel) | Quantity::Direction(wheel) => Some(robot.wheels[measured[wheel]].name.clone()),
             Quantity::Across | Quantity::Along | Quantity::Reach => Some(constant.name.clone()),
             _ => None,
         };

@@ -11,6 +11,8 @@ use crate::wheel::WheeledRobot;
 pub enum Quantity {
     /// Logarithm of the factor on the radius of a measured wheel.
     Radius(usize),
+    /// Angle of a measured wheel with rollers to its stated direction, rad.
+    Direction(usize),
     /// Logarithm of the factor on distances across the robot.
     Across,
     /// Logarithm of the factor on distances along the robot.
@@ -140,6 +142,11 @@ pub fn constants(robot: &WheeledRobot, measured: Measured) -> Vec<Constant> {
         let sigma = sigmas.radius.unwrap_or(known.radius);
         add(Quantity::Radius(k), &name, "m", sigma, usual.radius, scatter.radius);
     }
+    // A wheel without rollers slides whichever way it points: the others roll the robot on.
+    for (k, &wheel) in robot.measured().iter().enumerate().filter(|(_, wheel)| robot.wheels[**wheel].roller != 0.0) {
+        let name = format!("direction of {}", robot.wheels[wheel].name);
+        add(Quantity::Direction(k), &name, "rad", known.direction, usual.direction, scatter.direction);
+    }
     let across = sigmas.across.unwrap_or(known.distance);
     let along = sigmas.along.unwrap_or(known.distance);
     if robot.is_omni() {
@@ -213,6 +220,7 @@ fn turns(quantity: Quantity) -> bool {
         | Q::TurnSlipRate
         | Q::TurnSlipPower => false,
         Q::Radius(_)
+        | Q::Direction(_)
         | Q::Across
         | Q::Along
         | Q::Reach

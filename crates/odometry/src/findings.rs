@@ -61,7 +61,8 @@ pub struct Findings {
 
 impl Findings {
     /// What stands once sessions were left out: causes that explain little, only where those are forecast better with them; none with
-    /// which they are forecast worse than as stated and which leave most of the error, nor with which they are forecast no better.
+    /// which they are forecast worse than as stated and which leave most of the error, nor with which they are forecast no better, or worse
+    /// than re-tuned.
     #[must_use]
     pub fn after(self, table: &Table) -> Self {
         let rules = SETTINGS.doubt;
@@ -80,7 +81,9 @@ impl Findings {
         let Some(standing) = standing else { return out };
         if leaves_most && standing.over_nominal > rules.refuted {
             out.take_back();
-        } else if standing.over_nominal > confirmed && !out.named.iter().any(NamedCause::is_in_one_drive) {
+        } else if (standing.over_nominal > confirmed || standing.over_retuned > rules.worse)
+            && !out.named.iter().any(NamedCause::is_in_one_drive)
+        {
             out.take_back();
             out.unconfirmed = Some(Unconfirmed { labels, standing });
         }

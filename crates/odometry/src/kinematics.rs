@@ -18,6 +18,8 @@ use crate::wheel::{Wheel, WheeledRobot};
 pub(crate) struct Geometry {
     /// Factor on the radius of each measured wheel.
     pub(crate) radius: Vec<f64>,
+    /// Added to the direction of each measured wheel, rad.
+    pub(crate) direction: Vec<f64>,
     /// Factor on the places of all wheels across the robot.
     pub(crate) across: f64,
     /// Factor on the places of all wheels along the robot.
@@ -33,6 +35,7 @@ impl Geometry {
     pub(crate) fn given(robot: &WheeledRobot) -> Self {
         Self {
             radius: vec![1.0; robot.measured().len()],
+            direction: vec![0.0; robot.measured().len()],
             across: 1.0,
             along: 1.0,
             steering_offset: 0.0,
@@ -157,12 +160,13 @@ impl<'a> Kinematics<'a> {
             } else {
                 0.0
             };
-            let direction = wheel.direction + angle;
-            let (sin, cos) = direction.sin_cos();
             let turn = wheel.measured.then(|| {
                 measured += 1;
                 (measured - 1, wheel.radius * self.geometry.radius[measured - 1])
             });
+            let turned = turn.map_or(0.0, |(k, _)| self.geometry.direction[k]);
+            let direction = wheel.direction + angle + turned;
+            let (sin, cos) = direction.sin_cos();
             if !of(wheel) {
                 continue;
             }

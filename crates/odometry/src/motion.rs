@@ -79,6 +79,7 @@ impl Laws {
             let geometry = &mut out.geometry;
             match quantity {
                 Quantity::Radius(k) => geometry.radius[k] = value.exp(),
+                Quantity::Direction(k) => geometry.direction[k] = value,
                 Quantity::Across => geometry.across = value.exp(),
                 Quantity::Along => geometry.along = value.exp(),
                 Quantity::Reach => (geometry.across, geometry.along) = (value.exp(), value.exp()),

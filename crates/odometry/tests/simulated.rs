@@ -21,6 +21,7 @@ fn expected(hidden: Hidden) -> &'static str {
         Hidden::ClockOffset => "counts_clock_offset",
         Hidden::ClockRate => "clock_rate",
         Hidden::LostCounts => "lost_counts",
+        Hidden::Direction => "direction_of_one_wheel",
     }
 }
 
@@ -80,6 +81,18 @@ fn what_is_hidden_is_named_first() {
         }
     }
     assert!(right * 100 >= all * 90, "{right} of {all}: {wrong:#?}");
+}
+
+#[test]
+fn an_omni_wheel_that_points_another_way_is_named_with_its_angle_and_nothing_beside_it() {
+    for seed in [41, 42] {
+        let case = drawn(Kind::Omni3, Hidden::Direction, 3, 60.0, seed);
+        let findings = found(&case);
+        let labels: Vec<&str> = findings.named.iter().map(|c| c.label.as_str()).collect();
+        assert_eq!(labels, ["direction_of_one_wheel (wheel 3)"], "{seed}");
+        let told = &findings.named[0].estimates[0];
+        assert!((told.value - case.truth.turned).abs() < 0.01, "{seed}: {told:?} of {}", case.truth.turned);
+    }
 }
 
 #[test]

@@ -24,7 +24,7 @@ pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Resul
     }
     let edited = document.to_string();
     RobotFile::parse(name, &edited).context("no robot can have the corrected numbers")?;
-    Ok((edited, unheld(&stated, diagnosis, |quantity| is_length(quantity) || quantity == Quantity::SteeringOffset)))
+    Ok((edited, unheld(&stated, diagnosis, |quantity| is_length(quantity) || is_direction(quantity))))
 }
 
 fn edit(row: &mut dyn TableLike, stated: &odometry::Wheel, wanted: &odometry::Wheel) {
@@ -64,12 +64,13 @@ pub(super) fn corrected(stated: &WheeledRobot, tuning: &BTreeMap<String, f64>) -
     };
     let found = |name: &str| tuning.get(name).copied();
 
-    let mut radii = Vec::new();
+    let (mut radii, mut directions) = (Vec::new(), Vec::new());
     let mut zero = 0.0;
     for constant in constants(stated, Measured::BOTH) {
         let Some(value) = found(&constant.name) else { continue };
         match constant.quantity {
             Quantity::Radius(k) => radii.push((measured[k], value)),
+            Quantity::Direction(k) => directions.push((measured[k], value)),
             Quantity::Across => scale(&[1], value / extent(1)),
             Quantity::Along => scale(&[0], value / extent(0)),
             Quantity::Reach => scale(&[0, 1], reach.map_or(1.0, |reach| value / reach)),
@@ -80,11 +81,19 @@ pub(super) fn corrected(stated: &WheeledRobot, tuning: &BTreeMap<String, f64>) -
     for (wheel, radius) in radii {
         out.wheels[wheel].radius = radius;
     }
+    for (wheel, angle) in directions {
+        out.wheels[wheel].direction += angle;
+    }
     // The zero is added to the steering angle, as the direction at steering zero is.
     for wheel in out.wheels.iter_mut().filter(|w| w.steered) {
         wheel.direction += zero;
     }
     out
+}
+
+/// Whether a constant is a direction of wheels.
+fn is_direction(quantity: Quantity) -> bool {
+    matches!(quantity, Quantity::Direction(_) | Quantity::SteeringOffset)
 }
 
 /// Whether a constant is a radius or a place of wheels.
@@ -126,6 +135,7 @@ fn neutral(quantity: Quantity) -> Option<f64> {
 fn remedy(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Radius(_) | Quantity::Across | Quantity::Along | Quantity::Reach => "measure it",
+        Quantity::Direction(_) => "turn the wheel's bracket back by it",
         Quantity::SteeringOffset => "add it to the steering angle before it is used",
         Quantity::SteeringGain => "multiply the steering angle by it before it is used",
         Quantity::Mounting => "turn the pose by it where it is recorded",

@@ -212,6 +212,12 @@ fn hide(hidden: Hidden, robot: &mut Robot, wheel: usize, truth: &mut RollingTrut
             note("radius", robot.wheels[wheel].radius);
             truth.wheel = Some(robot.wheels[wheel].name.clone());
         }
+        Hidden::Direction => {
+            let angle = s.sign() * s.uniform(0.04, 0.1);
+            robot.wheels[wheel].direction += angle;
+            note("direction", angle);
+            truth.wheel = Some(robot.wheels[wheel].name.clone());
+        }
         Hidden::Distance => {
             scale_places(robot, 1.0 + s.sign() * s.uniform(0.08, 0.2));
             let [x, y] = robot.wheels[0].place;

@@ -70,6 +70,8 @@ pub enum Hidden {
     AllRadii,
     /// One wheel rolls with another radius.
     OneRadius,
+    /// One wheel with rollers points another way.
+    Direction,
     /// Wheels stand farther from each other, or from the centre, than stated.
     Distance,
     /// The steering's zero is off.
@@ -102,9 +104,10 @@ pub enum Hidden {
 
 impl Hidden {
     /// All.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::AllRadii,
         Self::OneRadius,
+        Self::Direction,
         Self::Distance,
         Self::SteeringZero,
         Self::SteeringGain,
@@ -126,6 +129,7 @@ impl Hidden {
         match self {
             Self::AllRadii => "radius of all wheels",
             Self::OneRadius => "radius of one wheel",
+            Self::Direction => "direction of one wheel",
             Self::Distance => "distance of wheels",
             Self::SteeringZero => "zero of the steering",
             Self::SteeringGain => "gain of the steering",
@@ -165,7 +169,7 @@ impl Hidden {
         match self {
             Self::OneRadius => chassis != Chassis::Tricycle,
             Self::SteeringZero | Self::SteeringGain => chassis == Chassis::Tricycle,
-            Self::RollerSlip => chassis.is_omni(),
+            Self::RollerSlip | Self::Direction => chassis.is_omni(),
             // Omni wheels slip by their rollers.
             Self::TurnSlip | Self::RateSlip => !chassis.is_omni(),
             // Nobody knows the effective track of sides that skid.
@@ -186,7 +190,7 @@ pub struct RollingTruth {
     pub hidden: Vec<Hidden>,
     /// The wheel that one of them is about.
     pub wheel: Option<String>,
-    /// Its numbers as the robot has them, by what they are: `radius`, `distance`, m; `steering_zero`, rad; `steering_gain`;
+    /// Its numbers as the robot has them, by what they are: `radius`, `distance`, m; `direction`, rad beyond what is stated; `steering_zero`, rad; `steering_gain`;
     /// `mounting`, rad; `origin_x`, `origin_y`, m; `clock_offset`, s, and `clock_rate`, without sign; `gyro_scale`; `gyro_bias`, rad/s.
     pub numbers: BTreeMap<String, f64>,
 }
@@ -275,7 +279,7 @@ mod tests {
             let case = plan.draw();
             assert_eq!(case.files, plan.draw().files);
             assert_eq!(case.truth.hidden, plan.hidden.into_iter().collect::<Vec<_>>());
-            let has_wheel = matches!(plan.hidden, Some(Hidden::OneRadius | Hidden::LostCounts));
+            let has_wheel = matches!(plan.hidden, Some(Hidden::OneRadius | Hidden::Direction | Hidden::LostCounts));
             assert_eq!(case.truth.wheel.is_some(), has_wheel);
         }
     }

@@ -69,6 +69,8 @@ pub(crate) enum Hidden {
     ClockOffset,
     ClockRate,
     LostCounts,
+    /// The third of three omni wheels points another way.
+    Direction,
 }
 
 /// The robot as it is: all lengths in m, angles in rad.
@@ -78,6 +80,8 @@ pub(crate) struct Truth {
     /// Track; wheelbase of a tricycle; centre to wheel of an omni robot; (wheelbase + track)/2 of a mecanum one.
     pub base: f64,
     pub steering: f64,
+    /// Angle of the third omni wheel to its stated direction, to the left.
+    pub turned: f64,
     pub mounting: f64,
     pub origin: [f64; 2],
     pub slip: f64,
@@ -128,7 +132,9 @@ fn wheels(kind: Kind, t: &Truth, [x, y, a]: [f64; 3]) -> (Vec<f64>, f64) {
         Kind::Omni3 => {
             let turned = t.base * a;
             let root = 3.0_f64.sqrt() / 2.0;
-            vec![-root * x - 0.5 * y - turned, root * x - 0.5 * y - turned, y - turned]
+            // The third stands behind and rolls to the left; turned to the left it rolls backward as well.
+            let (sin, cos) = t.turned.sin_cos();
+            vec![-root * x - 0.5 * y - turned, root * x - 0.5 * y - turned, cos * (y - turned) - sin * x]
         }
         Kind::Mecanum4 => {
             let turned = t.base * a;
@@ -147,6 +153,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         radius: (0..measured).map(|_| radius * (RADIUS_SIGMA * draw.normal()).exp()).collect(),
         base: base * (BASE_SIGMA * draw.normal()).exp(),
         steering: 0.01 * draw.normal(),
+        turned: 0.0,
         mounting: 0.001 * draw.normal(),
         origin: [0.001 * draw.normal(), 0.001 * draw.normal()],
         slip: 1e-3 * draw.normal(),
@@ -181,6 +188,7 @@ pub(crate) fn drawn(kind: Kind, hidden: Hidden, sessions: usize, seconds: f64, s
         Hidden::GainInTurns => truth.slip = -draw.between(0.03, 0.08),
         Hidden::ClockOffset => truth.offset = sign * draw.between(0.15, 0.4),
         Hidden::ClockRate => truth.rate = sign * draw.between(0.01, 0.025),
+        Hidden::Direction => truth.turned = sign * draw.between(0.04, 0.08),
         Hidden::LostCounts => truth.lost = Some((draw.uniform() * measured as f64) as usize % measured),
     }
     let recordings = (0..sessions)

@@ -14,6 +14,7 @@ fn cause(hidden: Hidden) -> &'static str {
     match hidden {
         Hidden::AllRadii => "radius_of_all_wheels",
         Hidden::OneRadius => "radius_of_one_wheel",
+        Hidden::Direction => "direction_of_one_wheel",
         Hidden::Distance => "wheel_distance",
         Hidden::SteeringZero => "steering_zero",
         Hidden::SteeringGain => "steering_gain",
@@ -34,7 +35,8 @@ fn cause(hidden: Hidden) -> &'static str {
 /// Whether a label is that of something hidden, of the wheel that it is about.
 fn is(label: &str, hidden: Hidden, truth: &RollingTruth) -> bool {
     let (id, of) = id_of(label);
-    let wheel = matches!(hidden, Hidden::OneRadius | Hidden::LostCounts).then_some(truth.wheel.as_deref()).flatten();
+    let wheel = matches!(hidden, Hidden::OneRadius | Hidden::Direction | Hidden::LostCounts);
+    let wheel = wheel.then_some(truth.wheel.as_deref()).flatten();
     id == cause(hidden) && wheel.is_none_or(|wheel| of == Some(wheel))
 }
 
@@ -42,6 +44,7 @@ fn is(label: &str, hidden: Hidden, truth: &RollingTruth) -> bool {
 fn told_as(name: &str, truth: &RollingTruth) -> String {
     match name {
         "radius" => format!("radius of {}", truth.wheel.as_deref().unwrap_or_default()),
+        "direction" => format!("direction of {}", truth.wheel.as_deref().unwrap_or_default()),
         "distance" => match truth.chassis {
             Chassis::Differential | Chassis::SkidSteer | Chassis::Mecanum4 => "track".to_owned(),
             Chassis::Tricycle => "wheelbase".to_owned(),
