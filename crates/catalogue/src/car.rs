@@ -365,8 +365,21 @@ pub const ENCODER_DELAY: CauseSpec = CauseSpec {
     resembles: "car_clock_delay",
 };
 
+/// A slope under the car.
+pub const GROUND_SLOPE: CauseSpec = CauseSpec {
+    id: "car_ground_slope",
+    name: "the car drives on a slope",
+    robots: ROBOTS,
+    meaning: "Gravity pulls the car along the ground, the same way in the world wherever it heads.",
+    size: "slope along x and y of the pose's frame, positive where the ground rises",
+    unit: "rad",
+    recognised: "The car is slower than its throttle implies one way, and faster the other way",
+    revealed_by: "the same straight line both ways, in two directions",
+    resembles: "drive_gain and drive_friction while the car heads one way",
+};
+
 /// All of them, from the command to the report.
-pub const ALL: [&CauseSpec; 27] = [
+pub const ALL: [&CauseSpec; 28] = [
     &STEERING_COMMAND_GAIN,
     &STEERING_CENTRE,
     &STEERING_MAP,
@@ -384,6 +397,7 @@ pub const ALL: [&CauseSpec; 27] = [
     &TOP_SPEED,
     &DRIVE_FRICTION,
     &DRIVE_LAG,
+    &GROUND_SLOPE,
     &TRACKED_POINT,
     &TRACKED_AXES,
     &CAR_CLOCK_DELAY,

@@ -261,6 +261,10 @@ pub fn constants(car: &Car) -> Vec<Constant> {
             &spec::DRIVE_LAG,
         );
     }
+    let slopes = [(Q::SlopeX, "slope along x of the pose's frame"), (Q::SlopeY, "slope along y of the pose's frame")];
+    for (quantity, name) in slopes {
+        add(quantity, name, "rad", false, none(known.slope), usual.slope, scatter.slope, &spec::GROUND_SLOPE);
+    }
     add(
         Q::PointX,
         "place of the tracked point, forward",

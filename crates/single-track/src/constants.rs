@@ -33,6 +33,8 @@ pub enum Quantity {
     Drag,
     DriveLag,
     DriveDelay,
+    SlopeX,
+    SlopeY,
     PointX,
     PointY,
     Direction,

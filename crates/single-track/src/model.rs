@@ -1,7 +1,8 @@
 //! The single-track car: steering servo, drive, tyres, and its motion over a grid of steps.
 //!
 //! Steering: command `u` to angle `δ = A u + A₂ |u| u³/|u|… ` by [`Laws::map`], then dead time, lag, a largest rate and play.
-//! Drive: `v̇ = g e − (c₁ + c₂ |e| + c₃ [e ≠ 0] + c₄ |v|) v − f sgn v + v_y r − λ_f f_f δ` with the throttle `e` beyond the dead zone, after its lag.
+//! Drive: `v̇ = g e − (c₁ + c₂ |e| + c₃ [e ≠ 0] + c₄ |v|) v − f sgn v + v_y r − λ_f f_f δ − G s·(cos ψ, sin ψ)` with the throttle `e` beyond the
+//! dead zone, after its lag, gravity `G` and the slope `s` of the ground along the map's axes; sideways a slope pulls alike.
 //! Tyres: side acceleration of an axle `f = α/√(k² + (α q)²)` at a slip angle `α`: compliance `k` (rad s²/m), largest `1/q`.
 //! Encoder: speed `c v (1 + κ (v r)²)`: driven wheels slip by their push over their stiffness; the push makes up for the drag
 //! of tyres that grip sideways, `f_f δ ≈ k f²` (Kiencke & Nielsen).
@@ -55,6 +56,8 @@ pub(crate) struct Laws {
     pub(crate) drag: f64,
     pub(crate) drive_lag: f64,
     pub(crate) drive_delay: f64,
+    /// Slope of the ground along x and y, positive where it rises.
+    pub(crate) slope: [f64; 2],
     pub(crate) point: [f64; 2],
     pub(crate) direction: f64,
     pub(crate) clock: f64,
@@ -139,9 +142,9 @@ impl Laws {
         1.0 / (k * k + (slip * q).powi(2)).sqrt()
     }
 
-    /// Speed after a step with a push, where cornering costs some deceleration.
-    pub(crate) fn speed_after(&self, speed: f64, effort: f64, side_drag: f64) -> f64 {
-        let driven = speed + STEP * (self.gain * effort - side_drag);
+    /// Speed after a step with a push, where cornering and a slope cost some deceleration.
+    pub(crate) fn speed_after(&self, speed: f64, effort: f64, drag: f64) -> f64 {
+        let driven = speed + STEP * (self.gain * effort - drag);
         let on = (effort.abs() / RULES.throttle_on).min(1.0);
         let of_motor = self.back_emf * effort.abs() + self.motor_braking * on;
         let damped = driven / (1.0 + STEP * (self.viscous + of_motor + self.drag * speed.abs()).max(0.0));
@@ -155,7 +158,10 @@ impl Laws {
         // Between the axles, or the car would not stand.
         let front = (length - self.rear).max(RULES.least_share * length);
         let before = *s;
-        let mut side_drag = 0.0;
+        let (sin, cos) = s.yaw.sin_cos();
+        let [x, y] = self.slope.map(|slope| RULES.gravity * slope);
+        let [uphill, to_the_left] = [x * cos + y * sin, y * cos - x * sin];
+        let mut drag = uphill;
         if self.lateral == Lateral::Kinematic {
             s.rate = s.speed * tan / (length + self.front_compliance * s.speed * s.speed);
             s.side = self.rear * s.rate;
@@ -173,14 +179,14 @@ impl Laws {
                 [1.0 + share * p + (1.0 - share) * q, share * p * front - (1.0 - share) * q * self.rear + h * s.speed],
                 [turn * (p - q), 1.0 + turn * (p * front + q * self.rear)],
             ];
-            let w = [s.side + share * p * s.speed * tan, s.rate + turn * p * s.speed * tan];
+            let w = [s.side + share * p * s.speed * tan - h * to_the_left, s.rate + turn * p * s.speed * tan];
             let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
             s.side = (w[0] * m[1][1] - w[1] * m[0][1]) / det;
             s.rate = (w[1] * m[0][0] - w[0] * m[1][0]) / det;
             let force = a * (before.speed * tan - s.side - front * s.rate) / slow;
-            side_drag = share * force * steering.sin() - s.side * s.rate;
+            drag += share * force * steering.sin() - s.side * s.rate;
         }
-        s.speed = self.speed_after(s.speed, effort, side_drag);
+        s.speed = self.speed_after(s.speed, effort, drag);
 
         // The middle of the step.
         let yaw = s.yaw + 0.5 * STEP * s.rate;

@@ -183,6 +183,8 @@ impl<'a> Shown<'a> {
 
     /// Errors of all rows, in the unit of their kinds: model minus measurement; 0 where there is none.
     pub(crate) fn errors_of(&self, laws: &Laws) -> Vec<f64> {
+        // Nobody knows where a car without a pose heads on a slope.
+        let laws = &if self.drive.has_pose() { *laws } else { Laws { slope: [0.0; 2], ..*laws } };
         let inputs = laws.inputs_between(self.drive, self.span.start, self.span.end);
         let mut out = Vec::with_capacity(self.rows.len());
         for &window in &self.windows {

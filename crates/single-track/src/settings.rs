@@ -80,6 +80,8 @@
         least_compliance: f64 = 1e-4, "rad s²/m", "a hundredth of usual tyres'";
         /// Least distance of the centre of mass from the front axle, share of the wheelbase.
         least_share: f64 = 0.1, "1", "guess; no car stands on its front wheels alone";
+        /// Gravity.
+        gravity: f64 = 9.81, "m/s²", "definition";
         /// Shape factor C of the Pacejka tyre of the rival.
         pacejka_shape: f64 = 1.4, "1", "Pacejka, Tyre and Vehicle Dynamics: 1.3 to 1.65 for side force";
         /// Throttle beyond the dead zone at which a motor is switched on in full.
@@ -164,6 +166,8 @@
         drive_lag: [f64; 2] = [0.05, 0.1], "s", "nothing is known of a motor not stated";
         /// Dead time of the motor.
         drive_delay: [f64; 2] = [0.01, 0.04], "s", "buses and drivers; nothing is known of a motor not stated";
+        /// Slope of the ground.
+        slope: f64 = 0.005, "rad", "guess; floors of buildings";
         /// Place of the tracked point.
         point: f64 = 0.005, "m", "a tape measure";
         /// Direction of the tracked axes.
@@ -247,6 +251,8 @@
         motor_braking: f64 = 1.0, "1/s", "guess";
         /// Deceleration with the square of the speed.
         drag: f64 = 0.1, "1/m", "guess";
+        /// Slope of the ground.
+        slope: f64 = 0.03, "rad", "guess; two degrees";
         /// Place of the tracked point.
         point: f64 = 0.05, "m", "guess";
         /// Direction of the tracked axes.
@@ -286,6 +292,8 @@
         viscous: f64 = 0.03, "1/s", "guess; temperature of gears";
         /// Deceleration with the square of the speed.
         drag: f64 = 0.005, "1/m", "guess; floor and temperature of tyres";
+        /// Slope of the ground.
+        slope: f64 = 5e-4, "rad", "guess; half a millimetre per metre from one part of a floor to another";
         /// Place of the tracked point.
         point: f64 = 1e-3, "m", "guess; motion capture is set up anew";
         /// Direction of the tracked axes.

@@ -24,6 +24,7 @@ fn what_is_hidden_is_named_with_its_size() {
         ("steering_rate", Hidden { slowness: 0.6, ..none }, "time of the steering for a radian", 0.6, 0.09),
         ("car_encoder_scale", Hidden { encoder: 1.0, ..none }, "encoder speed over ground speed", 2.0, 0.02),
         ("wheel_slip_in_bends", Hidden { wheel_slip: 3e-3, ..none }, "slip of the driven wheels in bends", 3e-3, 5e-4),
+        ("car_ground_slope", Hidden { slope: 0.05, ..none }, "slope along y of the pose's frame", 0.05, 0.006),
         ("car_gyro_scale", Hidden { gyro_scale: 0.15, ..none }, "scale of the gyro", 1.15, 0.02),
         ("car_gyro_bias", Hidden { gyro_bias: 0.1, ..none }, "bias of the gyro", 0.1, 0.01),
     ];

@@ -133,6 +133,7 @@ fn remedy(quantity: Quantity) -> &'static str {
         | Q::Drag
         | Q::DriveLag
         | Q::DriveDelay => "the drive's own controller has to make up for it",
+        Q::SlopeX | Q::SlopeY => "it takes the ground for level",
         Q::PointX | Q::PointY => "shift the pose by it where it is recorded",
         Q::Direction => "turn the pose by it where it is recorded",
         Q::Clock | Q::GyroDelay | Q::EncoderDelay => "correct the time stamps by it",

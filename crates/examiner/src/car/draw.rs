@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use super::plant::{Car, Driven, Motion, STEP, Tyres};
+use super::plant::{Car, Driven, GRAVITY, Motion, STEP, Tyres};
 use super::{CarCase, CarHidden, CarPlan, CarTruth};
 use crate::random::Stream;
 
@@ -129,6 +129,7 @@ fn stated(s: &mut Stream) -> Whole {
         dry: s.uniform(0.2, 0.6),
         drag: s.uniform(0.01, 0.05) / wheelbase,
         motor_lag: s.uniform(0.02, 0.08),
+        slope: [0.0; 2],
     };
     let sensors = Sensors {
         point: [wheelbase * s.uniform(0.0, 0.6), 0.0],
@@ -287,6 +288,14 @@ fn hide(hidden: CarHidden, whole: &mut Whole, truth: &mut CarTruth, s: &mut Stre
             sensors.wheel_slip = [s.uniform(0.06, 0.15), s.uniform(1.6, 2.6)];
             // It is driven fast, or nothing slips.
             whole.throttle[1] *= 1.3;
+        }
+        CarHidden::Slope => {
+            let (rise, towards) = (s.uniform(0.025, 0.08), s.uniform(-PI, PI));
+            car.slope = [rise * towards.cos(), rise * towards.sin()];
+            note("slope_x", car.slope[0]);
+            note("slope_y", car.slope[1]);
+            // Its driver gives what climbs it.
+            whole.throttle[1] += GRAVITY * rise / car.drive;
         }
     }
 }

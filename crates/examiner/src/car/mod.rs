@@ -59,11 +59,13 @@ pub enum CarHidden {
     EncoderDelay,
     /// The driven wheels slip in bends.
     WheelSlip,
+    /// The ground is a slope.
+    Slope,
 }
 
 impl CarHidden {
     /// All.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::SteeringGain,
         Self::SteeringCentre,
         Self::SteeringBend,
@@ -86,6 +88,7 @@ impl CarHidden {
         Self::EncoderScale,
         Self::EncoderDelay,
         Self::WheelSlip,
+        Self::Slope,
     ];
 
     /// Name for people.
@@ -113,6 +116,7 @@ impl CarHidden {
             Self::EncoderScale => "scale of the encoder",
             Self::EncoderDelay => "delay of the encoder",
             Self::WheelSlip => "slip of the driven wheels in bends",
+            Self::Slope => "slope of the ground",
         }
     }
 }
@@ -128,7 +132,7 @@ pub struct CarTruth {
     pub has_tyres: bool,
     /// Numbers of what is hidden, SI, by what they are: `gain`, `centre`, `delay`, `lag`, `rate` (s/rad), `play`, `wheelbase`,
     /// `front_compliance`, `rear_compliance`, `drive`, `dead_zone`, `point_x`, `point_y`, `axes`, `clock`, `clock_rate`, `gyro_scale`,
-    /// `gyro_bias`, `gyro_delay`, `encoder_scale`, `encoder_delay`.
+    /// `gyro_bias`, `gyro_delay`, `encoder_scale`, `encoder_delay`, `slope_x`, `slope_y`.
     pub numbers: BTreeMap<String, f64>,
 }
 
@@ -198,8 +202,8 @@ mod tests {
 
     #[test]
     fn a_set_hides_nothing_in_a_quarter_and_everything_in_turn() {
-        let all = CarPlan::set(1, 176, 0);
-        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 44);
+        let all = CarPlan::set(1, 184, 0);
+        assert_eq!(all.iter().filter(|p| p.hidden.is_empty()).count(), 46);
         for hidden in CarHidden::ALL {
             assert!(all.iter().filter(|p| p.hidden.contains(&hidden)).count() >= 6, "{hidden:?}");
         }

@@ -7,7 +7,7 @@ pub(super) const STEP: f64 = 0.000_5;
 /// Speed below which tyres roll without slip, m/s: the brush law is stiff there.
 const SLOW: f64 = 0.4;
 /// Gravity, m/s².
-const GRAVITY: f64 = 9.81;
+pub(super) const GRAVITY: f64 = 9.81;
 /// Share of the voltage below which the bridge is open.
 const FREE: f64 = 0.01;
 /// A servo reads its pulse so often, s.
@@ -59,6 +59,17 @@ pub(super) struct Car {
     pub(super) drag: f64,
     /// Time constant of the current, s.
     pub(super) motor_lag: f64,
+    /// Slope of the ground along x and y, positive where it rises, rad.
+    pub(super) slope: [f64; 2],
+}
+
+impl Car {
+    /// Acceleration by its weight on the slope, ahead and to the left, m/s².
+    fn weight_along(&self, yaw: f64) -> [f64; 2] {
+        let [x, y] = self.slope.map(|slope| -GRAVITY * slope.sin());
+        let (sin, cos) = yaw.sin_cos();
+        [x * cos + y * sin, y * cos - x * sin]
+    }
 }
 
 /// State of a car: x, y of the rear axle, heading, velocity of the centre of mass, yaw rate.
@@ -145,7 +156,8 @@ impl<'a> Driven<'a> {
         let drag_of_tyres = self.turn();
         let m = &mut self.motion;
         let before = m.speed;
-        let free = m.speed + STEP * (driven - car.drag * m.speed * m.speed.abs() - drag_of_tyres);
+        let [ahead, _] = car.weight_along(yaw);
+        let free = m.speed + STEP * (driven + ahead - car.drag * m.speed * m.speed.abs() - drag_of_tyres);
         m.speed = free.signum() * (free.abs() - STEP * car.dry).max(0.0);
         self.ahead = (m.speed - before) / STEP;
 
@@ -185,7 +197,8 @@ impl<'a> Driven<'a> {
         let left = (1.0 - used * used).sqrt();
         let force =
             [0, 1].map(|k| share[k] * brush(slip[k].tan(), tyres.stiffness[k], left * tyres.friction * GRAVITY));
-        m.side += STEP * (force[0] * self.wheels.cos() + force[1] - m.speed * m.rate);
+        let [_, to_the_left] = car.weight_along(m.yaw);
+        m.side += STEP * (force[0] * self.wheels.cos() + force[1] + to_the_left - m.speed * m.rate);
         m.rate += STEP * (front * force[0] * self.wheels.cos() - car.rear * force[1]) / car.gyration;
         force[0] * self.wheels.sin() - m.side * m.rate
     }
@@ -223,6 +236,7 @@ mod tests {
             dry: 0.4,
             drag: 0.02,
             motor_lag: 0.03,
+            slope: [0.0; 2],
         }
     }
 

@@ -17,6 +17,8 @@ pub(crate) struct Hidden {
     pub(crate) slowness: f64,
     /// Share by which the driven wheels are ahead, over the square of the sideways acceleration, s⁴/m².
     pub(crate) wheel_slip: f64,
+    /// Slope of the ground along y, rad.
+    pub(crate) slope: f64,
 }
 
 /// The car as its owner states it.
@@ -66,7 +68,7 @@ pub(crate) fn columns(hidden: Hidden, seed: u64) -> Columns {
         let most = if hidden.slowness > 0.0 { 1e-3 / hidden.slowness } else { f64::INFINITY };
         angle += turned.clamp(-most, most);
         let rate = v * angle.tan() / (0.25 * (1.0 + hidden.wheelbase));
-        v += 1e-3 * (8.0 * (throttle - 0.05) - 0.6 * v - 0.4);
+        v += 1e-3 * (8.0 * (throttle - 0.05) - 0.6 * v - 0.4 - 9.81 * hidden.slope * yaw.sin());
         v = v.max(0.0);
         x += 1e-3 * v * yaw.cos();
         y += 1e-3 * v * yaw.sin();

@@ -34,6 +34,7 @@ fn cause(hidden: CarHidden) -> &'static str {
         CarHidden::EncoderScale => "car_encoder_scale",
         CarHidden::EncoderDelay => "encoder_delay",
         CarHidden::WheelSlip => "wheel_slip_in_bends",
+        CarHidden::Slope => "car_ground_slope",
     }
 }
 
@@ -60,6 +61,8 @@ fn told_as(name: &str) -> &str {
         "gyro_delay" => "delay of the gyro",
         "encoder_scale" => "encoder speed over ground speed",
         "encoder_delay" => "delay of the encoder",
+        "slope_x" => "slope along x of the pose's frame",
+        "slope_y" => "slope along y of the pose's frame",
         other => other,
     }
 }
