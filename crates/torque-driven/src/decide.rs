@@ -113,7 +113,9 @@ pub(crate) fn decide(
     let excess = (best / fault_free.max(1e-9)).ln();
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
-    let by_level = worse * logistic(UNKNOWN.left_slope * (left - UNKNOWN.left_centre));
+    let has_several = scored.first().is_some_and(|s| s.trial.hypothesis.parts.len() > 1);
+    let centre = if has_several { UNKNOWN.left_centre_of_several } else { UNKNOWN.left_centre };
+    let by_level = worse * logistic(UNKNOWN.left_slope * (left - centre));
     let nearest = scored.first().map_or(base, |s| &s.trial.fitted);
     let form = (!problem.has_references).then(|| Structure::of(problem, &nearest.response));
     let unknown = 1.0 - none_of([by_level, form.map_or(0.0, Structure::is_no_noise)]);
@@ -255,6 +257,30 @@ mod tests {
         };
         approx::assert_relative_eq!(score(0.5 * usual), score(usual), epsilon = 1e-9);
         approx::assert_relative_eq!(score(usual) - score(3.0 * usual), 24.0 - 8.0, epsilon = 1e-9);
+    }
+
+    #[test]
+    fn two_effects_that_leave_a_third_are_unknown_and_one_that_does_is_not() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let usual = fault_free_cost(&problem, &[1.0]);
+        let mut retuned = problem.begin(&Hypothesis::default(), problem.origin(), None);
+        retuned.cost = 8.0 * usual + 60.0;
+        let gain = 2.0 / 3.0 * (retuned.cost - usual);
+        let single = gained(&problem, &retuned, "quadratic_drag", gain);
+        let mut pair = single.clone();
+        let other = gained(&problem, &retuned, "constant_pull", gain);
+        pair.hypothesis.parts.extend(other.hypothesis.parts);
+        pair.fitted.point.effects.extend(other.fitted.point.effects.iter().map(|size| 3.0 * size));
+        pair.fitted.point.effects[0] *= 3.0;
+        let unknown = |singles: Vec<Trial>, several: Vec<Trial>| {
+            let (as_it_is, retuned, screened) = (retuned.cost, retuned.clone(), Vec::new());
+            let found = SearchResult { as_it_is, retuned, singles, several, screened };
+            decide(&problem, &found, &[1.0], &NullScores::default()).unknown
+        };
+        assert!(unknown(vec![single], Vec::new()) < 0.2);
+        assert!(unknown(Vec::new(), vec![pair]) > 0.6);
     }
 
     #[test]

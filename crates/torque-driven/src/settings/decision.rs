@@ -69,6 +69,10 @@
         left_slope: f64 = 12.0, "1", "119 cases of our own generator, seed 8001";
         /// Centre of that logistic.
         left_centre: f64 = 0.5, "1", "119 cases of our own generator, seed 8001";
+        /// The same of two effects and more: they had more chances to explain it.
+        left_centre_of_several: f64 = 0.25, "1",
+            "a look at 16 answers with two and three effects about robots of another hand: 0.05 at most in ten right ones, \
+             0.13 to 0.29 in three wrong ones";
         /// Without references: orders between the harmonics of a wheel's turn, at which only noise stands.
         between: [f64; 6] = [1.6, 2.4, 2.6, 3.4, 3.6, 4.4], "1", "definition: about the harmonics 2, 3 and 4, away from them";
         /// Without references: power at a harmonic over that between harmonics at which either is as likely.
