@@ -209,9 +209,7 @@ pub fn diagnose_steady(
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
     if refs.is_empty() && standstills.is_empty() && wrong_speeds.is_empty() && slope.is_none() {
-        withheld.extend(not_given);
-        let reason = withheld.first().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
-        return Err(DiagnosisError::TooCalm { reason });
+        return Err(too_calm(withheld.iter().chain(&not_given)));
     }
 
     progress("calibrating on the references");
@@ -282,6 +280,12 @@ pub fn diagnose_steady(
         out.next = Some(advise_steady(fastest(&case.recordings), &robot, &case.sigma, &calibrated, naming.as_ref()));
     }
     Ok(out)
+}
+
+/// Nothing permits any answer: the first reason why.
+fn too_calm<'a>(mut withheld: impl Iterator<Item = &'a Withheld>) -> DiagnosisError {
+    let reason = withheld.next().map_or_else(String::new, |w| format!("{}: {}", w.recording, w.reason));
+    DiagnosisError::TooCalm { reason }
 }
 
 /// Where the loads lack nothing there is nothing to correct but wheels of another radius.
