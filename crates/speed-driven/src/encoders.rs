@@ -17,16 +17,11 @@ pub(crate) fn mark(references: &[SpeedRun], recordings: &mut [SpeedRun], track: 
     let usual = usual(if references.is_empty() { recordings } else { references });
     let mut out = Vec::new();
     for run in recordings {
-        for side in 0..2 {
-            for (told, rows) in of_side(run, side, usual, track) {
-                let [from, until] = told.interval;
-                debug_assert!(!rows.is_empty());
-                for (left_out, t) in run.standing.iter_mut().zip(&run.time) {
-                    *left_out |= from <= *t && *t <= until;
-                }
-                out.push(told);
-            }
+        let found: Vec<WrongSpeed> = (0..2).flat_map(|side| of_side(run, side, usual, track)).collect();
+        for (left_out, t) in run.standing.iter_mut().zip(&run.time) {
+            *left_out |= found.iter().any(|wrong| (wrong.interval[0]..=wrong.interval[1]).contains(t));
         }
+        out.extend(found);
     }
     out
 }
@@ -49,8 +44,8 @@ fn usual(runs: &[SpeedRun]) -> f64 {
     shares.min_by(|a, b| a.ln().abs().total_cmp(&b.ln().abs())).unwrap_or(1.0)
 }
 
-/// Stretches in which the encoder of a side is off, with their rows.
-fn of_side(run: &SpeedRun, side: usize, usual: f64, track: f64) -> Vec<(WrongSpeed, Vec<usize>)> {
+/// Stretches in which the encoder of a side is off.
+fn of_side(run: &SpeedRun, side: usize, usual: f64, track: f64) -> Vec<WrongSpeed> {
     let (Some(set), Some(yaw)) = (&run.commanded, &run.yaw_rate) else { return Vec::new() };
     let is_off = |i: &usize| {
         let Some(shares) = followed(run, *i) else { return false };
@@ -73,7 +68,7 @@ fn of_side(run: &SpeedRun, side: usize, usual: f64, track: f64) -> Vec<(WrongSpe
             share,
             half: NINETY * (scatter / seconds.max(1.0).sqrt()).hypot(ENCODERS.other / 2.0),
         };
-        (seconds >= ENCODERS.least).then_some((wrong, rows))
+        (seconds >= ENCODERS.least).then_some(wrong)
     };
     let rows = (0..run.time.len()).filter(is_off);
     pieces(&run.time, rows, ENCODERS.apart).into_iter().filter_map(told).collect()

@@ -114,8 +114,9 @@ pub(crate) fn decide(
     let left = (best - fault_free) / (base.cost - fault_free).max(UNKNOWN.least_mismatch);
     let worse = logistic(UNKNOWN.excess_slope * (excess - UNKNOWN.excess_centre));
     let has_several = scored.first().is_some_and(|s| s.trial.hypothesis.parts.len() > 1);
-    let centre = if has_several { UNKNOWN.left_centre_of_several } else { UNKNOWN.left_centre };
-    let by_level = worse * logistic(UNKNOWN.left_slope * (left - centre));
+    let of_one = [UNKNOWN.left_slope, UNKNOWN.left_centre];
+    let [slope, centre] = if has_several { UNKNOWN.left_of_several } else { of_one };
+    let by_level = worse * logistic(slope * (left - centre));
     let nearest = scored.first().map_or(base, |s| &s.trial.fitted);
     let form = (!problem.has_references).then(|| Structure::of(problem, &nearest.response));
     let unknown = 1.0 - none_of([by_level, form.map_or(0.0, Structure::is_no_noise)]);

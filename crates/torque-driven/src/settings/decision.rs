@@ -69,8 +69,8 @@
         left_slope: f64 = 12.0, "1", "119 cases of our own generator, seed 8001";
         /// Centre of that logistic.
         left_centre: f64 = 0.5, "1", "119 cases of our own generator, seed 8001";
-        /// The same of two effects and more: they had more chances to explain it.
-        left_centre_of_several: f64 = 0.25, "1",
+        /// Slope and centre of the same of two effects and more: they had more chances to explain it.
+        left_of_several: [f64; 2] = [24.0, 0.25], "1",
             "a look at 16 answers with two and three effects about robots of another hand: 0.05 at most in ten right ones, \
              0.13 to 0.29 in three wrong ones";
         /// Without references: orders between the harmonics of a wheel's turn, at which only noise stands.
