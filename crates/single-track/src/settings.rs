@@ -293,7 +293,7 @@
         /// Deceleration with the square of the speed.
         drag: f64 = 0.005, "1/m", "guess; floor and temperature of tyres";
         /// Slope of the ground.
-        slope: f64 = 5e-4, "rad", "guess; half a millimetre per metre from one part of a floor to another";
+        slope: f64 = 2e-3, "rad", "guess; another part of the floor";
         /// Place of the tracked point.
         point: f64 = 1e-3, "m", "guess; motion capture is set up anew";
         /// Direction of the tracked axes.
