@@ -113,7 +113,7 @@
         /// The same error, from which on they confirm nothing, however much they leave.
         confirmed: f64 = 0.95, "1", "equal to that of robots of any wheels; of 30 named answers about robots of another hand true ones left 0.00 to 0.46, one of four false ones 1.22";
         /// The same over that of re-tuned constants.
-        worse: f64 = 1.1, "1", "equal to that of robots of any wheels; a sound robot of another hand whose pose was told to be of another point: 1.4";
+        worse: f64 = 1.1, "1", "equal to that of robots of any wheels";
         /// Share of the re-tuned error from which on most is left.
         leaves_most: f64 = 0.5, "1", "guess";
     }
