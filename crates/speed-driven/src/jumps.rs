@@ -9,7 +9,6 @@ use inference::robust::NINETY;
 use verdict::LoadChange;
 
 const JUMPS: Jumps = CHANGES.jumps;
-const NO_SLOPE: &str = "the gyro shows no slope that would explain it";
 /// Factor by which the straight load varies without a cause.
 const UNNAMED: f64 = NAMING.priors.unnamed_straight;
 
@@ -108,7 +107,7 @@ pub(super) fn jumps(
             } else if below && would_show {
                 (vec![UNLISTED], "the load is below any friction, and no slope shows: something pushes the robot")
             } else if would_show {
-                (vec![ROLLING], NO_SLOPE)
+                (vec![ROLLING], "the gyro shows no slope that would explain it")
             } else if below {
                 (vec![GRADE], "the load is below any friction, so the robot runs downhill")
             } else {

@@ -238,6 +238,14 @@ mod tests {
         assert_eq!([told(&own), told(&|k| own(k) + 0.06)], [Tilts::AsOnSlope; 2]);
         assert_eq!([told(&|_| 0.0), told(&|k| 0.06 + 0.1 * own(k))], [Tilts::Level; 2], "a rope or wind pulls");
         assert_eq!([told(&|k| -own(k)), told(&|k| 0.1 * f64::from(k % 3))], [Tilts::Otherwise; 2]);
+        // What leans in the body shows the other way round where it drives backward.
+        let there_and_back = |k: u32| {
+            let way = if k % 2 == 0 { 1.0 } else { -1.0 };
+            let heading = 1.6 * f64::from(k / 2);
+            let direction = if way > 0.0 { heading } else { heading + std::f64::consts::PI };
+            Stretch { direction, way, ..at(0, 0.06 * way) }
+        };
+        assert_eq!(tilts(&[(0..4).map(there_and_back).collect()], slope, &[Some(0.0)]), Tilts::Level);
         let unseen = vec![Stretch { tilt: None, ..at(0, 0.0) }];
         assert_eq!(tilts(&[unseen], slope, &[Some(0.0)]), Tilts::AsOnSlope, "nothing speaks against it");
     }
