@@ -240,7 +240,7 @@ mod tests {
         assert_eq!([told(&|k| -own(k)), told(&|k| 0.1 * f64::from(k % 3))], [Tilts::Otherwise; 2]);
         // What leans in the body shows the other way round where it drives backward.
         let there_and_back = |k: u32| {
-            let way = if k % 2 == 0 { 1.0 } else { -1.0 };
+            let way = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
             let heading = 1.6 * f64::from(k / 2);
             let direction = if way > 0.0 { heading } else { heading + std::f64::consts::PI };
             Stretch { direction, way, ..at(0, 0.06 * way) }
