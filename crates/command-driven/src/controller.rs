@@ -171,6 +171,23 @@ impl Lag {
     }
 }
 
+/// By how much wheels answer a step otherwise under two laws, ∫ |h₁ − h₂| dt of their answers to a step of one, s: by their dead times and
+/// lags, or by their lags alone.
+pub(crate) fn answers_apart(laws: [(Law, &[f64]); 2], with_dead_time: bool) -> f64 {
+    let answer = |(law, x): (Law, &[f64])| -> Vec<f64> {
+        let lag = Lag::new(law, x);
+        let waits = if with_dead_time { (x[DEAD_TIME] / H).round() as usize } else { 0 };
+        let (mut y, mut rate) = (0.0, 0.0);
+        let answered = std::iter::repeat_with(|| {
+            (y, rate) = lag.step(y, rate, 1.0);
+            y
+        });
+        std::iter::repeat_n(0.0, waits).chain(answered).take((SETTINGS.answer.answered / H) as usize).collect()
+    };
+    let [a, b] = laws.map(answer);
+    a.iter().zip(&b).map(|(a, b)| (a - b).abs() * H).sum()
+}
+
 /// exp(A) by halving and squaring: the library's own needs an allocator that its features here leave out.
 fn exponential(a: Matrix2<f64>) -> Matrix2<f64> {
     let squarings = SETTINGS.integration.squarings;
@@ -201,6 +218,20 @@ mod tests {
             assert_eq!(s.hold([1.0, 2.0], 6.0), [1.0, 2.0]);
             assert_eq!(s.hold([1.0, 2.0], f64::INFINITY), [1.0, 2.0]);
         }
+    }
+
+    #[test]
+    fn a_longer_dead_time_before_a_shorter_lag_is_hardly_another_answer() {
+        let with = |dead_time: f64, lag: f64| {
+            let mut x: Vec<f64> = verdict::DRIVE_CONSTANTS.iter().map(|c| c.neutral).collect();
+            (x[DEAD_TIME], x[LAG]) = (dead_time, lag);
+            x
+        };
+        let apart = |a: &[f64], b: &[f64], whole: bool| answers_apart([a, b].map(|x| (Law::default(), x)), whole);
+        let (plain, slow, late) = (with(0.0, 0.1), with(0.0, 0.3), with(0.05, 0.06));
+        approx::assert_relative_eq!(apart(&plain, &slow, true), 0.2, max_relative = 0.02);
+        assert_eq!(apart(&plain, &plain, true), 0.0);
+        assert!(apart(&plain, &late, true) < 0.035 && apart(&plain, &late, false) > 0.035);
     }
 
     #[test]

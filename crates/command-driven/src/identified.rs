@@ -2,6 +2,7 @@
 
 use verdict::Alternative;
 
+use crate::common::common;
 use crate::controller::Law;
 use crate::ground::TurnSlip;
 use crate::identify::{Base, OfDrive, OfGround};
@@ -34,4 +35,27 @@ pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progre
         alternatives: of_drive.alternatives,
         scaling_is_told: of_drive.scaling_is_told,
     }
+}
+
+/// The same beyond one response for references and recordings; `None` where all that was found has to differ.
+pub(crate) fn beyond_common(
+    [references, recordings]: [&Windows; 2],
+    known: &Identified,
+    (mut base, mut found): (Base, Identified),
+    nominal: [f64; 2],
+) -> Option<(Base, Identified)> {
+    let windows = [references, recordings];
+    let (of_drive, of_ground): (Weighed, Weighed) = found.evidence.iter().partition(|(e, _)| e.is_drive());
+    let mut evidence = [of_drive, of_ground];
+    let of_drive = common(&OfDrive, windows, [&known.drive, &found.drive], &evidence[0]);
+    let of_ground = common(&OfGround { nominal }, windows, [&known.ground, &found.ground], &evidence[1]);
+    let is_shared = of_drive.is_some() || of_ground.is_some();
+    if let Some(drive) = of_drive {
+        (base.drive, found.drive, evidence[0]) = (drive.base, drive.trial, drive.evidence);
+    }
+    if let Some(ground) = of_ground {
+        (base.ground, found.ground, evidence[1]) = (ground.base, ground.trial, ground.evidence);
+    }
+    found.evidence = evidence.concat();
+    is_shared.then_some((base, found))
 }

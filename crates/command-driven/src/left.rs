@@ -28,13 +28,25 @@ pub(crate) const POSITION: usize = 3;
 /// One number for each signal.
 pub(crate) type BySignal = [f64; SIGNALS.len()];
 
-/// What references leave when they are fitted, as shares of their motion.
+/// What references leave when they are fitted, mean squares.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Floor {
     /// In the mean.
     mean: BySignal,
     /// The most that lasts.
     lasting: BySignal,
+    /// Their motion.
+    motion: BySignal,
+}
+
+impl Floor {
+    /// The same of recordings that move otherwise: errors grow with the motion, and do not fall with it, for a drive may be slow in
+    /// the mean and fast where it errs.
+    fn at(&self, motion: BySignal) -> Self {
+        let by = |s: usize| if self.motion[s] > 0.0 { (motion[s] / self.motion[s]).max(1.0) } else { 1.0 };
+        let scaled = |of: BySignal| std::array::from_fn(|s| by(s) * of[s]);
+        Self { mean: scaled(self.mean), lasting: scaled(self.lasting), motion }
+    }
 }
 
 /// What is left of a mismatch.
@@ -59,6 +71,12 @@ impl Remains {
     pub(crate) fn worst(&self) -> usize {
         let relative = |s: usize| self.unknown[s] * self.error[s] / self.floor[s].max(f64::MIN_POSITIVE);
         (0..SIGNALS.len()).max_by(|a, b| relative(*a).total_cmp(&relative(*b))).unwrap_or(0)
+    }
+
+    /// Holds an unknown cause of the wheel speeds for this likely, at least.
+    pub(crate) fn doubt_wheels(&mut self, probability: f64) {
+        self.mostly = self.mostly.max(probability);
+        self.unknown[..HEADING].iter_mut().for_each(|unknown| *unknown = unknown.max(probability));
     }
 
     /// Probability that something has no known cause.
@@ -100,14 +118,13 @@ pub(crate) struct Fitted<'a> {
     pub(crate) nominal: [f64; 2],
 }
 
-/// What a fit leaves of its own windows, as shares of the motion: the floor for others of the same robot.
+/// What a fit leaves of its own windows: the floor for others of the same robot.
 pub(crate) fn floor(fitted: &Fitted<'_>) -> Floor {
     let windows = fitted.windows;
     let squares = Squares::new(fitted);
-    let motion = |s: usize| squares.motion[s].max(f64::MIN_POSITIVE);
-    let of = |s: usize| mean(windows.by_block(|w| squares.corrected[w][s])).unwrap_or(0.0) / motion(s);
-    let lasting = |s: usize| lasting(windows, |w| squares.corrected[w][s]).map_or(0.0, |most| most / motion(s));
-    Floor { mean: std::array::from_fn(of), lasting: std::array::from_fn(lasting) }
+    let of = |s: usize| mean(windows.by_block(|w| squares.corrected[w][s])).unwrap_or(0.0);
+    let lasting = |s: usize| lasting(windows, |w| squares.corrected[w][s]).unwrap_or(0.0);
+    Floor { mean: std::array::from_fn(of), lasting: std::array::from_fn(lasting), motion: squares.motion }
 }
 
 /// What is left of the recordings.
@@ -118,13 +135,14 @@ pub(crate) fn remains(runs: &[ResponseRun], fitted: &Fitted<'_>, references: Opt
     let squares = Squares::new(fitted);
     let motion = squares.motion;
     let known = |s: usize| motion[s] > 0.0;
-    let floor: BySignal =
-        std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f.mean[s] * motion[s])));
+    let references = references.map(|floor| floor.at(motion));
+    let floor: BySignal = std::array::from_fn(|s| squares.noise[s].max(references.map_or(0.0, |f| f.mean[s])));
     // What lasts is no jump, though it may last for one command only: a wheel that is held, a body that stands.
     let lasts: [bool; SIGNALS.len()] = std::array::from_fn(|s| {
-        let usual =
-            references.map_or(LEFT.large.powi(2), |f| (LEFT.stands_out * f.lasting[s]).max(LEFT.interest.powi(2)));
-        let least = (usual * motion[s]).max(LEFT.stands_out * floor[s]);
+        let usual = references.map_or(LEFT.large.powi(2) * motion[s], |f| {
+            (LEFT.stands_out * f.lasting[s]).max(LEFT.interest.powi(2) * motion[s])
+        });
+        let least = usual.max(LEFT.stands_out * floor[s]);
         known(s) && lasting(windows, |w| squares.corrected[w][s]).is_some_and(|most| most > least)
     });
     let level = |of: &[BySignal], s: usize| {

@@ -10,6 +10,7 @@
 //! * `controller`, `drive`: from command to wheel, the law and its fit.
 //! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
 //! * `search`, `identify`, `identified`: which elements improve forecasts of windows that were left out.
+//! * `common`: one response for references and recordings, but for what has to differ.
 //! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
 //! * `left`, `squares`: what the best answer leaves, where, and whether its cause is unknown.
@@ -20,6 +21,7 @@
 //! * `replica`: the same commands driven by a response that is known, for rehearsals.
 //! * `settings`: every tuned number, with unit and source.
 
+mod common;
 mod compare;
 mod controller;
 mod drive;
@@ -55,7 +57,7 @@ use verdict::{Cause, Diagnosis, Element, GyroBesidePose, Response, Verdict};
 
 use crate::settings::SETTINGS;
 use compare::{Errors, Rivals, free_runs, left_out, summary};
-use identified::{Identified, identify};
+use identified::{Identified, beyond_common, identify};
 use identify::{Base, OfDrive, OfGround, neutral};
 use inference::experiment::{Comparison, Standing, leave_out};
 use left::Fitted;
@@ -115,17 +117,7 @@ pub fn diagnose_response(
     let robot = case.robot.checked()?;
     let nominal = [robot.wheel_radius, 2.0 * robot.half_track];
     let windows = enough(&case.recordings, "recordings")?;
-    let (base, floor) = if case.references.is_empty() {
-        (neutral(&windows), None)
-    } else {
-        let references = enough(&case.references, "references")?;
-        let plain = neutral(&references);
-        let found = identify(&references, &plain, nominal, &|_| progress("fitting the references"));
-        let folds = leave_out(&Rivals::new(&references, &plain, &found, nominal));
-        let floor = left::floor(&Fitted { windows: &references, folds: &folds, base: &plain, found: &found, nominal });
-        (Base { drive: found.drive.model, ground: found.ground.model }, Some(floor))
-    };
-    let found = identify(&windows, &base, nominal, progress);
+    let (base, found, floor) = beyond_references(case, &windows, nominal, progress)?;
     progress("forecasting windows that were left out");
     let rivals = Rivals::new(&windows, &base, &found, nominal);
     let folds = leave_out(&rivals);
@@ -141,7 +133,13 @@ pub fn diagnose_response(
     let is_confirmed = standing.as_ref().map_or([true; 2], |s| [s.over_nominal, s.over_retuned].map(confirms));
     let mut figures = figures(&left_out, &rivals.drive_only(None), has_position);
     let [wheel_before, _, wheel_after, ..] = figures.wheel;
-    let is_drive_confirmed = confirms(wheel_after / wheel_before.max(f64::MIN_POSITIVE));
+    // A law of the wheels that sends the body elsewhere is none.
+    let [yaw_before, _, yaw_after, ..] = figures.yaw;
+    let is_contradicted = found.drive.constants() > 0 && yaw_after > SETTINGS.answer.contradicted * yaw_before;
+    let closed = (wheel_before.powi(2) - wheel_after.powi(2)).max(0.0).sqrt() / windows.speed().max(f64::MIN_POSITIVE);
+    let is_drive_confirmed = confirms(wheel_after / wheel_before.max(f64::MIN_POSITIVE))
+        && closed > SETTINGS.answer.closed
+        && !is_contradicted;
     if !unseen.list.is_empty() {
         let errors = rivals.unseen(&unseen);
         let position = case.held_out.iter().any(ResponseRun::has_position);
@@ -149,12 +147,15 @@ pub fn diagnose_response(
         figures = self::figures(&errors, &rivals.drive_only(Some(&unseen)), position);
     }
     let response = response(&windows, unseen.list.len(), &base, &found, rivals.constants, nominal);
-    let remains = left::remains(
+    let mut remains = left::remains(
         &case.recordings,
         &Fitted { windows: &windows, folds: &folds, base: &base, found: &found, nominal },
         floor,
         objection.is_some(),
     );
+    if is_contradicted {
+        remains.doubt_wheels(1.0 - SETTINGS.answer.unconfirmed);
+    }
     let (_, off_error) = mean_with_error(&windows.by_block(|w| left_out.nominal[0][w]));
     let mut out = Diagnosis::withheld();
     let off = [summary(&left_out.nominal[0])[0], off_error];
@@ -164,7 +165,7 @@ pub fn diagnose_response(
         &response.parameters,
         &moved,
         (off, nominal[1]),
-        (&remains, [is_confirmed[0], is_confirmed[1], is_drive_confirmed]),
+        (&remains, &base, [is_confirmed[0], is_confirmed[1], is_drive_confirmed]),
         &case.recordings,
     );
     let is_named = |c: &Cause| c.probability > SETTINGS.left.likely && ![NONE.id, UNKNOWN.id].contains(&&*c.effect);
@@ -184,6 +185,7 @@ pub fn diagnose_response(
     }
     out.tuning = name::tuning(&response.parameters);
     out.limits = limits(case, has_position, &response);
+    out.limits.extend(is_contradicted.then(|| words::contradicted([yaw_before, yaw_after])));
     if !response.parameters.is_empty() {
         let ratio = standing.as_ref().map(|s| s.over_retuned).filter(|_| !is_confirmed.contains(&true));
         let doubt = standing.as_ref().and_then(|standing| standing.doubt(&out.free_runs, None));
@@ -230,6 +232,52 @@ fn add_gyro(out: &mut Diagnosis, gyro: &GyroBesidePose) {
     } else {
         out.sentences.push(gyro_beside_pose::told(gyro));
     }
+}
+
+/// What the simulation says, what recordings show beyond it, and what the fit of the references leaves.
+fn beyond_references(
+    case: &ResponseCase,
+    windows: &Windows,
+    nominal: [f64; 2],
+    progress: &dyn Fn(&str),
+) -> Result<(Base, Identified, Option<left::Floor>), DiagnosisError> {
+    if case.references.is_empty() {
+        let base = neutral(windows);
+        let found = identify(windows, &base, nominal, progress);
+        return Ok((base, found, None));
+    }
+
+    let references = enough(&case.references, "references")?;
+    let plain = neutral(&references);
+    let known = identify(&references, &plain, nominal, &|_| progress("fitting the references"));
+    let folds = leave_out(&Rivals::new(&references, &plain, &known, nominal));
+    let floor = left::floor(&Fitted { windows: &references, folds: &folds, base: &plain, found: &known, nominal });
+    let base = Base { drive: known.drive.model.clone(), ground: known.ground.model.clone() };
+    let found = identify(windows, &base, nominal, progress);
+    let own = (base, found);
+    let common = beyond_common([&references, windows], &known, own.clone(), nominal);
+    // What both share explains nothing where it leaves more than is usual, and a response of the recordings' own does not.
+    let is_unknown = |(base, found): &(Base, Identified)| {
+        left_by(case, windows, (base, found), Some(floor), nominal).mostly > SETTINGS.left.likely
+    };
+    let common = common.filter(|common| !is_unknown(common) || is_unknown(&own));
+    let (base, found) = common.unwrap_or(own);
+    Ok((base, found, Some(floor)))
+}
+
+/// What a response leaves of the recordings.
+fn left_by(
+    case: &ResponseCase,
+    windows: &Windows,
+    (base, found): (&Base, &Identified),
+    floor: Option<left::Floor>,
+    nominal: [f64; 2],
+) -> left::Remains {
+    let folds = leave_out(&Rivals::new(windows, base, found, nominal));
+    let has_position = case.recordings.iter().any(ResponseRun::has_position);
+    let standing = Standing::new(&free_runs("left out in folds", &left_out(&folds), has_position));
+    let is_doubted = standing.and_then(|standing| standing.objection(None)).is_some();
+    left::remains(&case.recordings, &Fitted { windows, folds: &folds, base, found, nominal }, floor, is_doubted)
 }
 
 fn enough(runs: &[ResponseRun], what: &'static str) -> Result<Windows, DiagnosisError> {

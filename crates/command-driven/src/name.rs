@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant, Span};
 
+use crate::controller::answers_apart;
 use crate::identified::Identified;
 use crate::identify::{Base, Identify};
 use crate::left::Remains;
@@ -164,7 +165,7 @@ pub(crate) fn ranked(
     parameters: &[Parameter],
     moved: &[Moved],
     (off, track): ([f64; 2], f64),
-    (remains, is_confirmed): (&Remains, [bool; 3]),
+    (remains, base, is_confirmed): (&Remains, &Base, [bool; 3]),
     runs: &[ResponseRun],
 ) -> Vec<Cause> {
     let mut out = Vec::new();
@@ -174,7 +175,7 @@ pub(crate) fn ranked(
         let of_file = moved.iter().find(|m| elements.contains(&m.element)).map_or(0.0, |m| m.probability);
         let is_tuned = elements.iter().all(|e| [Element::Radius, Element::Track].contains(e));
         let is_of_drive = elements.iter().all(|e| e.is_drive());
-        let is_confirmed = is_confirmed[usize::from(!is_tuned)] && (is_confirmed[2] || !is_of_drive);
+        let is_confirmed = if is_of_drive { is_confirmed[2] } else { is_confirmed[usize::from(!is_tuned)] };
         let trust = if is_confirmed { 1.0 } else { ANSWER.unconfirmed };
         let p = trust * (1.0 - of_file) * own.map(|(_, e)| probability(e)).fold(0.0, f64::max);
         if p < ANSWER.listed {
@@ -207,7 +208,8 @@ pub(crate) fn ranked(
             }
         }
         if spec.unit == "s" {
-            cause.probability *= cause.magnitude.zip(cause.sigma).map_or(1.0, |(size, sigma)| matters(size, sigma));
+            let later = by_how_much_later(spec, found, base, of.first().copied());
+            cause.probability *= later.zip(cause.sigma).map_or(1.0, |(size, sigma)| matters(size, sigma));
         }
         present.push(cause.probability);
         if cause.probability < ANSWER.listed {
@@ -229,14 +231,28 @@ pub(crate) fn ranked(
     out
 }
 
+/// By how much later wheels or body answer than is simulated, s; `None` where nothing was fitted. A longer dead time before a shorter lag
+/// is no later answer.
+fn by_how_much_later(spec: &CauseSpec, found: &Identified, base: &Base, own: Option<&Parameter>) -> Option<f64> {
+    let own = own?;
+    let (now, given) = (&found.drive.model, &base.drive);
+    let apart = |whole: bool| answers_apart([(now.law, &now.x), (given.law, &given.x)], whole);
+    let longer = (own.value - own.simulated.unwrap_or(0.0)).abs();
+    Some(match spec.id {
+        id if id == cause::LAG.id => apart(false).min(apart(true)),
+        id if id == cause::DEAD_TIME.id => longer.min(apart(true)),
+        _ => longer,
+    })
+}
+
 /// Standard deviation of a uniform distribution of this width.
 fn sigma_of_uniform(width: f64) -> f64 {
     width / 12.0_f64.sqrt()
 }
 
-/// Probability that a delay of so many seconds, known to one sigma and to the rows between which it ends, is one that matters.
+/// Probability that a difference of so many seconds, known to one sigma and to the rows between which both end, is one that matters.
 fn matters(size: f64, sigma: f64) -> f64 {
-    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.max(sigma_of_uniform(STEP)))
+    normal_cdf((size.abs() - ANSWER.least_delay) / sigma.max(sigma_of_uniform(STEP).hypot(sigma_of_uniform(STEP))))
 }
 
 fn estimate(p: &Parameter) -> Estimate {

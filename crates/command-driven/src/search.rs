@@ -154,7 +154,32 @@ pub(crate) fn columns<P: Part>(part: &P, m: &Model<P::Law>, free: &[usize], r: &
         .collect()
 }
 
-/// Robust fit of the free constants within their bounds, on the rows of `used` windows, with its cost.
+/// Robust fit of constants, by their places in the list, from these values within their bounds, with its cost.
+pub(crate) fn fit_constants(
+    constants: &[ResponseConstant],
+    (free, start): (&[usize], &[f64]),
+    misfit: impl Fn(&[f64]) -> Vec<f64> + Sync,
+    iterations: usize,
+) -> (Vec<f64>, f64) {
+    let constant = |(&k, &value): (&usize, &f64)| {
+        let c = &constants[k];
+        let [least, largest] = c.bounds;
+        let constant = FreeConstant::new(value.clamp(least, largest), c.scale).within(least, largest);
+        FreeConstant { relative: true, longest: FIT.longest, difference: FIT.difference, ..constant }
+    };
+    let settings = Settings {
+        iterations,
+        first_damping: FIT.first_damping,
+        least_relative_fall: FIT.converged,
+        ..Settings::default()
+    };
+
+    let all = free.iter().zip(start).map(constant).collect();
+    let fitted = Residuals::new(all, misfit).with_loss(Loss::Huber(1.0)).fit(&settings);
+    fitted.map_or_else(|_| (start.to_vec(), f64::INFINITY), |fitted| (fitted.values, fitted.cost))
+}
+
+/// The same of the free constants of a part, on the rows of `used` windows.
 pub(crate) fn fit<P: Part>(
     part: &P,
     start: &Model<P::Law>,
@@ -172,24 +197,10 @@ pub(crate) fn fit<P: Part>(
         let rows = r.len() / used.len();
         r.chunks(rows).zip(used).filter(|(_, u)| **u).flat_map(|(w, _)| w.iter().copied()).collect()
     };
-    let constant = |&k: &usize| {
-        let c = &part.constants()[k];
-        let [least, largest] = c.bounds;
-        let constant = FreeConstant::new(start.x[k].clamp(least, largest), c.scale).within(least, largest);
-        FreeConstant { relative: true, longest: FIT.longest, difference: FIT.difference, ..constant }
-    };
-    let settings = Settings {
-        iterations,
-        first_damping: FIT.first_damping,
-        least_relative_fall: FIT.converged,
-        ..Settings::default()
-    };
-
-    let residuals = Residuals::new(free.iter().map(constant).collect(), misfit).with_loss(Loss::Huber(1.0));
-    residuals.fit(&settings).map_or_else(
-        |_| (start.clone(), f64::INFINITY),
-        |fitted| (Model { law: start.law, x: with(&fitted.values) }, fitted.cost),
-    )
+    let first: Vec<f64> = free.iter().map(|&k| start.x[k]).collect();
+    let (values, cost) = fit_constants(part.constants(), (free, &first), misfit, iterations);
+    let x = if cost.is_finite() { with(&values) } else { start.x.clone() };
+    (Model { law: start.law, x }, cost)
 }
 
 /// Fits a set of elements on all windows and without each fold. `near` is a fit that begins close by.

@@ -129,6 +129,16 @@
         relevant: f64 = 0.005, "1", "guess";
     }
 
+    /// What differs between references and recordings.
+    common: Common {
+        /// Share by which one response for both may forecast them worse than fits of their own, both together.
+        rise: f64 = 0.5, "1", "a look at 29 sound robots of another hand, whose motors saturate: up to 0.37";
+        /// The same of one of them where that is clear.
+        clear_rise: f64 = 0.1, "1", "guess";
+        /// Log odds from which on it is clear.
+        clear: f64 = 3.0, "nats", "guess: as much again as against an element";
+    }
+
     /// Intervals of fitted constants, and which causes are listed.
     answer: Answer {
         /// Factor by which sandwich intervals are widened: every window starts from a noisy measurement,
@@ -144,6 +154,8 @@
         /// A dead time or lag below this is no finding.
         least_delay: f64 = 0.04, "s",
             "rows of 0.05 s tell no better when a wheel changed; chosen after a look at 120 drawn cases";
+        /// Time after a step of the command over which two answers are compared.
+        answered: f64 = 3.0, "s", "guess; ten times a long lag";
         /// A lag of the other order leaves open how long the dead time is where its left-out loss is at most so many times as large.
         near: f64 = 2.0, "1", "guess; three robots of another hand with a control loop that overshoots had 1.2 to 1.5";
         /// The same where the law leaves more than so many times the noise.
@@ -151,6 +163,11 @@
         /// Error of forecasts of what was left out over that with re-tuned constants, from which on it confirms no cause.
         confirmed: f64 = 0.95, "1",
             "guess: 5 % are as little as nothing; of 40 robots of another hand true causes left 0.04 to 0.74, and false ones 0.89 and more";
+        /// Root of the fall of the mean square of wheel speeds, over their root mean square, from which on it confirms a cause of the drive.
+        closed: f64 = 0.0125, "1", "guess; of 75 robots of another hand causes that are there closed 0.018 and more, others up to 0.009";
+        /// Error of the forecast heading over that before, from which on a cause of the drive that forecasts wheel speeds better is
+        /// doubted all the same.
+        contradicted: f64 = 1.5, "1", "guess; of 75 robots of another hand causes that are there had 1.1 and less, invented laws 1.9 to 6";
         /// Share that probabilities keep then.
         unconfirmed: f64 = 0.3, "1", "guess";
         /// Causes below this probability are not listed.

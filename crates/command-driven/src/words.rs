@@ -7,6 +7,14 @@ use crate::search::{Part, Trial};
 use crate::settings::SETTINGS;
 use verdict::{Diagnosis, Parameter, Response, Verdict};
 
+/// Why a law that forecasts wheel speeds is not believed: the heading of the body without and with it, rad.
+pub(crate) fn contradicted([before, after]: [f64; 2]) -> String {
+    format!(
+        "the response that forecasts the wheel speeds best sends the body elsewhere: the heading is then off by {after:.2} rad (rms) in forecasts \
+         over 2 s, and by {before:.2} rad without it; so it is not believed"
+    )
+}
+
 /// Errors that the sentences give: as it is, re-tuned, corrected, placebo, drive corrected alone (rms).
 pub(crate) struct Figures {
     pub(crate) wheel: [f64; 5],
