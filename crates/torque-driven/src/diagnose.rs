@@ -115,7 +115,7 @@ impl Calibrated {
         }
 
         out.visits = visits_of(&references);
-        out.references = cut_all(&references, &check(&references, &[]), case, &robot, options)?;
+        out.references = cut_all(&references, &check(&references, &[], None), case, &robot, options)?;
         number(&mut out.references, &VisitNumbers::new(&out.visits, &[]).references);
         own_effects::ensure_given_is_stable(&robot, &out.references, options.step)?;
         out.runaways = own_effects::runaways(options.known, &robot, &out.references, options.step);
@@ -166,7 +166,7 @@ impl Calibrated {
         }
         check_inputs(case)?;
         let robot = self.robot;
-        let sensors = check(&case.recordings, &case.references);
+        let sensors = check(&case.recordings, &case.references, Some(robot.wheel_radius));
         let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
         let mut recordings = cut_all(&case.recordings, &sensors, case, &robot, options)?;
         number(&mut recordings, &visits.recordings);

@@ -12,6 +12,7 @@ use crate::visit::Visit;
 use crate::windows::Cut;
 use inference::Options;
 use inference::robust::NINETY;
+use robot_model::effects::{encoder_scale, wheel_radius_mismatch};
 use std::cmp::Reverse;
 
 /// All that an answer is made of.
@@ -82,10 +83,17 @@ impl Judged<'_> {
         }
     }
 
-    /// Whether the 90 % interval of an effect holds no effect at all.
+    /// Whether the 90 % interval of an effect holds no effect at all. Another radius of a wheel is none where that of its encoder's scale
+    /// holds it.
     fn may_be_zero(&self, scored: &Scored, part: usize) -> bool {
         let cause = self.cause(scored, part, scored.probability);
-        cause.magnitude.zip(cause.sigma).is_some_and(|(size, sigma)| size.abs() < NINETY * sigma)
+        let of_encoder = self.sensors.faults.iter().filter(|f| {
+            f.spec.id == encoder_scale::SPEC.id
+                && cause.effect == wheel_radius_mismatch::SPEC.id
+                && f.side.map(inference::words::side) == cause.side.as_deref()
+        });
+        let of_scale = of_encoder.map(|f| f.sigma / (1.0 + f.magnitude)).fold(0.0, f64::max);
+        cause.magnitude.zip(cause.sigma).is_some_and(|(size, sigma)| size.abs() < NINETY * sigma.hypot(of_scale))
     }
 }
 

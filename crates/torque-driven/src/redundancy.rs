@@ -121,15 +121,16 @@ fn spec(kind: Redundancy) -> Option<&'static EffectSpec> {
     alike.min_by(|a, b| a.rarity.total_cmp(&b.rarity))
 }
 
-/// Runs every force-free check of `runs`; without `references` only what needs none.
-pub(crate) fn check(runs: &[Run], references: &[Run]) -> Redundant {
+/// Runs every force-free check of `runs`. Without `references` only what needs none, and, where the wheels' radius is given, m, what is far
+/// beyond the usual of any robot.
+pub(crate) fn check(runs: &[Run], references: &[Run], radius: Option<f64>) -> Redundant {
     let mut out = Redundant::default();
     gyro::check(runs, references, &mut out);
     angle::frozen(runs, references, &mut out.faults);
     let own = gyro::errors(references);
     angle::jumps(runs, references, &mut out.faults);
-    wheels::check(runs, references, &mut out.faults);
-    acceleration::check([runs, references], [out.gyro, own], &mut out.faults);
+    wheels::check(runs, references, radius, &mut out.faults);
+    acceleration::check([runs, references], [out.gyro, own], radius.is_some(), &mut out.faults);
     clocks::check(runs, references, &mut out.faults);
     out
 }

@@ -7,7 +7,7 @@
 use robot_model::EffectSpec;
 use robot_model::effect::Redundancy;
 
-use super::pool::{Measured, beyond, least_squares};
+use super::pool::{Measured, beyond_usual, least_squares};
 use super::{Fault, spec};
 use crate::motion::{GyroError, Smoothed};
 use crate::run::Run;
@@ -66,13 +66,19 @@ fn errors(run: &Run, gyro: GyroError) -> [Option<Measured>; 3] {
     least_squares(&rows, 2.0 * half as f64).map_or(nothing, |[x, y, angle, ..]| [Some(x), Some(y), Some(angle)])
 }
 
-/// Bias and angle of the accelerometer.
-pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], out: &mut Vec<Fault>) {
+/// Bias and angle of the accelerometer; without references only if `alone`, beside what is usual.
+pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], alone: bool, out: &mut Vec<Fault>) {
+    if references.is_empty() && !alone {
+        return;
+    }
     let of = |runs: &[Run], gyro| runs.iter().map(|r| errors(r, gyro)).collect::<Vec<_>>();
     let (here, there) = (of(runs, gyro[0]), of(references, gyro[1]));
     let mut tell = |spec: &'static EffectSpec, parameter: usize, i: usize| {
+        let usual = (ACCELERATION.usual[i], spec.interest);
         let pick = |all: &[[Option<Measured>; 3]]| all.iter().map(|e| e[i]).collect::<Vec<_>>();
-        if let Some(d) = beyond(&pick(&here), &pick(&there), spec.interest).filter(|d| d.is_reportable(spec.interest)) {
+        let references = pick(&there);
+        let d = beyond_usual(&pick(&here), Some(&*references).filter(|r| !r.is_empty()), usual);
+        if let Some(d) = d.filter(|d| d.is_reportable(spec.interest)) {
             out.push(Fault::new((spec, parameter), d, None));
         }
     };
@@ -104,7 +110,7 @@ mod tests {
     }
 
     fn told(effect: &'static dyn Effect<f64>, values: &[f64]) -> Vec<Fault> {
-        check(&runs(Some((effect, values))), &runs(None)).faults
+        check(&runs(Some((effect, values))), &runs(None), None).faults
     }
 
     #[test]
@@ -123,6 +129,22 @@ mod tests {
         let found = told(&effects::imu_tilt::Law, &[0.0, 0.06]);
         assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "accelerometer_bias", 1));
         approx::assert_abs_diff_eq!(found[0].magnitude, 9.81 * 0.06_f64.sin(), epsilon = 0.02);
+    }
+
+    #[test]
+    fn without_references_a_large_offset_is_told_beside_what_is_usual() {
+        let alone = |effect: Option<(&'static dyn Effect<f64>, &[f64])>| check(&runs(effect), &[], Some(0.1)).faults;
+        let found = alone(Some((&effects::accelerometer_bias::Law, &[0.7, 0.0])));
+        assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "accelerometer_bias", 0), "{found:?}");
+        approx::assert_abs_diff_eq!(found[0].magnitude, 0.7, epsilon = 0.03);
+        // A mounting by eye, a slope, and references' own.
+        for usual in [None, Some((&effects::accelerometer_bias::Law as &dyn Effect<f64>, &[0.35, 0.0][..]))] {
+            assert!(alone(usual).is_empty(), "{:?}", alone(usual));
+        }
+        let grade: &dyn Effect<f64> = &effects::grade::Law;
+        assert!(alone(Some((grade, &[0.06, -0.08]))).is_empty());
+        let biased = runs(Some((&effects::accelerometer_bias::Law, &[0.7, 0.0])));
+        assert!(check(&biased, &[], None).faults.is_empty());
     }
 
     #[test]
@@ -155,11 +177,11 @@ mod tests {
         for (i, run) in blind.iter_mut().enumerate() {
             run.accel[i % 2].fill(None);
         }
-        assert!(check(&blind, &runs(None)).faults.is_empty());
+        assert!(check(&blind, &runs(None), None).faults.is_empty());
         let mut blind = runs(Some((&effects::accelerometer_bias::Law, &[0.5, 0.5])));
         for run in &mut blind {
             run.pose[0].fill(None);
         }
-        assert!(check(&blind, &runs(None)).faults.is_empty());
+        assert!(check(&blind, &runs(None), None).faults.is_empty());
     }
 }

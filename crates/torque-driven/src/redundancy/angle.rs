@@ -103,7 +103,7 @@ mod tests {
             let mut dropped = runs();
             let lost: usize = dropped.iter_mut().map(|r| freeze(r, 1, 60, rows)).sum();
             let share = lost as f64 / dropped.iter().map(Run::rows).sum::<usize>() as f64;
-            let found = check(&dropped, &runs());
+            let found = check(&dropped, &runs(), None);
             assert_eq!(found.faults.len(), 1, "{:?}", found.faults);
             let fault = &found.faults[0];
             assert_eq!((fault.spec.redundancy, fault.side), (Redundancy::FrozenAngle, Some(1)));
@@ -118,12 +118,12 @@ mod tests {
             for a in slipped[1].angle[0].iter_mut().skip(1234).flatten() {
                 *a += jump;
             }
-            let found = check(&slipped, &runs()).faults;
+            let found = check(&slipped, &runs(), None).faults;
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!((found[0].spec.redundancy, found[0].side), (Redundancy::JumpingAngle, Some(0)));
             approx::assert_abs_diff_eq!(found[0].magnitude, jump, epsilon = 0.01);
             // The references do the same: nothing is missing.
-            assert!(check(&slipped, &slipped).faults.is_empty());
+            assert!(check(&slipped, &slipped, None).faults.is_empty());
         }
     }
 

@@ -7,7 +7,7 @@
 
 use robot_model::effect::Redundancy;
 
-use super::pool::{Measured, alone, beyond, least_squares};
+use super::pool::{Measured, beyond_usual, least_squares};
 use super::{Fault, spec};
 use crate::motion::{GyroError, integrated_yaw, pose_yaw};
 use crate::run::Run;
@@ -86,11 +86,8 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     // Without references sound clocks are taken to agree, but for what usual ones differ by.
     let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64, usual: f64| {
         let of = |all: &[Delays]| all.iter().map(pick).collect::<Vec<_>>();
-        if references.is_empty() {
-            let own = alone(&of(&here), interest)?;
-            return Some(Measured { sigma: own.sigma.hypot(usual), ..own });
-        }
-        beyond(&of(&here), &of(&there), interest)
+        let references = of(&there);
+        beyond_usual(&of(&here), Some(&*references).filter(|r| !r.is_empty()), (usual, interest))
     };
     let [usual, usual_growth] = CLOCKS.usual;
     let growth =
@@ -157,32 +154,32 @@ mod tests {
     #[test]
     fn a_late_sensor_is_found_with_its_delay() {
         for rows in [-3.0, 3.0, 8.0] {
-            let found = check(&imu_late(rows, 0.0), &runs(&[])).faults;
+            let found = check(&imu_late(rows, 0.0), &runs(&[]), None).faults;
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!((found[0].spec.id, found[0].parameter), ("clock_offset", 0));
             approx::assert_abs_diff_eq!(found[0].magnitude, 0.01 * rows, epsilon = 2e-3);
             // Without references clocks may differ by what is usual.
-            let alone = check(&imu_late(rows, 0.0), &[]).faults;
+            let alone = check(&imu_late(rows, 0.0), &[], None).faults;
             assert_eq!(alone.len(), usize::from(rows > 4.0), "{alone:?}");
         }
-        let alone = check(&imu_late(8.0, 0.0), &[]).faults;
+        let alone = check(&imu_late(8.0, 0.0), &[], None).faults;
         assert_eq!((alone[0].spec.id, alone[0].parameter), ("clock_offset", 0));
         approx::assert_abs_diff_eq!(alone[0].magnitude, 0.08, epsilon = 3e-3);
         let mut all = runs(&[]);
         all.iter_mut().flat_map(|r| &mut r.pose).for_each(|p| late(p, 5.0, 0.0));
-        let found = check(&all, &runs(&[])).faults;
+        let found = check(&all, &runs(&[]), None).faults;
         assert_eq!((found.len(), found[0].spec.id, found[0].parameter), (1, "clock_offset", 1));
         approx::assert_abs_diff_eq!(found[0].magnitude, 0.05, epsilon = 2e-3);
-        let alone = check(&all, &[]).faults;
+        let alone = check(&all, &[], None).faults;
         assert_eq!((alone.len(), alone[0].spec.id, alone[0].parameter), (1, "clock_offset", 1));
     }
 
     #[test]
     fn a_clock_that_runs_slow_is_found_with_its_rate() {
-        let found = check(&imu_late(0.0, 4e-3), &runs(&[])).faults;
+        let found = check(&imu_late(0.0, 4e-3), &runs(&[]), None).faults;
         assert_eq!(found.len(), 1, "{found:?}");
         assert_eq!(found[0].spec.id, "clock_drift");
-        assert_eq!(check(&imu_late(0.0, 4e-3), &[]).faults[0].spec.id, "clock_drift");
+        assert_eq!(check(&imu_late(0.0, 4e-3), &[], None).faults[0].spec.id, "clock_drift");
         approx::assert_abs_diff_eq!(found[0].magnitude, 4e-3, epsilon = 4e-4);
     }
 
@@ -198,7 +195,7 @@ mod tests {
         ] {
             let dose = Dose { effect, values: values.to_vec(), presence: Presence::default() };
             for references in [runs(&[]), Vec::new()] {
-                let found = check(&runs(std::slice::from_ref(&dose)), &references).faults;
+                let found = check(&runs(std::slice::from_ref(&dose)), &references, None).faults;
                 assert!(found.is_empty(), "{}: {found:?}", effect.spec().id);
             }
         }

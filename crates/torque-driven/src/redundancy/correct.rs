@@ -121,11 +121,11 @@ mod tests {
             fault(Redundancy::DelayGrowth, 0, -4e-3, None),
         ] {
             let faulty: Vec<Run> = runs().iter().map(|r| made.corrected(r).into_owned()).collect();
-            let told = check(&faulty, &runs());
+            let told = check(&faulty, &runs(), None);
             assert_eq!(told.faults.len(), 1, "{:?}", told.faults);
             approx::assert_relative_eq!(told.faults[0].magnitude, -made.faults[0].magnitude, max_relative = 0.1);
             let mended: Vec<Run> = faulty.iter().map(|r| told.corrected(r).into_owned()).collect();
-            let left = check(&mended, &runs()).faults;
+            let left = check(&mended, &runs(), None).faults;
             assert!(left.is_empty(), "{left:?}");
         }
     }

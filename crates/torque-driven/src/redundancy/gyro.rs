@@ -94,18 +94,18 @@ mod tests {
     fn sound_sensors_have_no_fault() {
         let sound = runs(0.0, 0.0);
         for references in [&sound[..], &[]] {
-            let found = check(&sound, references);
+            let found = check(&sound, references, None);
             assert!(found.faults.is_empty(), "{:?}", found.faults);
             assert_eq!(found.gyro, GyroError::default());
         }
-        assert!(check(&[], &sound).faults.is_empty());
-        assert!(check(&[], &[]).faults.is_empty());
+        assert!(check(&[], &sound, None).faults.is_empty());
+        assert!(check(&[], &[], None).faults.is_empty());
     }
 
     #[test]
     fn bias_and_scale_of_the_gyro_are_recovered() {
         for (bias, scale) in [(0.03, 0.0), (-0.02, 0.0), (0.0, 0.08), (0.04, -0.06)] {
-            let found = check(&runs(bias, scale), &runs(0.0, 0.0));
+            let found = check(&runs(bias, scale), &runs(0.0, 0.0), None);
             approx::assert_abs_diff_eq!(found.gyro.bias, bias, epsilon = 1e-3);
             approx::assert_abs_diff_eq!(found.gyro.scale, scale, epsilon = 5e-3);
             let faults = usize::from(bias != 0.0) + usize::from(scale != 0.0);
@@ -115,10 +115,10 @@ mod tests {
 
     #[test]
     fn what_the_references_show_too_is_corrected_and_not_told() {
-        let found = check(&runs(0.03, 0.0), &runs(0.03, 0.0));
+        let found = check(&runs(0.03, 0.0), &runs(0.03, 0.0), None);
         assert!(found.faults.is_empty(), "{:?}", found.faults);
         approx::assert_abs_diff_eq!(found.gyro.bias, 0.03, epsilon = 1e-3);
-        let found = check(&runs(0.05, 0.0), &runs(0.02, 0.0));
+        let found = check(&runs(0.05, 0.0), &runs(0.02, 0.0), None);
         approx::assert_abs_diff_eq!(found.faults[0].magnitude, 0.03, epsilon = 1e-3);
         approx::assert_abs_diff_eq!(found.gyro.bias, 0.05, epsilon = 1e-3);
     }
@@ -129,6 +129,6 @@ mod tests {
         for run in &mut blind {
             run.pose[2].fill(None);
         }
-        assert!(check(&blind, &runs(0.0, 0.0)).faults.is_empty());
+        assert!(check(&blind, &runs(0.0, 0.0), None).faults.is_empty());
     }
 }

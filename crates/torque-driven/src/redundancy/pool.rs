@@ -74,6 +74,18 @@ pub(super) fn beyond(
     Some(Measured { value: middle[0] - middle[1], sigma: MEDIAN * (spread * share).sqrt() })
 }
 
+/// How far the recordings differ from the references, or, where there are none to ask, from zero by more than is usual, one sigma.
+pub(super) fn beyond_usual(
+    recordings: &[Option<Measured>],
+    references: Option<&[Option<Measured>]>,
+    (usual, interest): (f64, f64),
+) -> Option<Measured> {
+    match references {
+        Some(references) => beyond(recordings, references, interest),
+        None => alone(recordings, interest).map(|m| Measured { sigma: m.sigma.hypot(usual), ..m }),
+    }
+}
+
 /// Least squares of `rows` of columns and value, each coefficient with its sigma; `alike` rows tell as much as one.
 pub(super) fn least_squares<const N: usize>(rows: &[([f64; N], f64)], alike: f64) -> Option<[Measured; N]> {
     let count = rows.len() as f64 / alike;

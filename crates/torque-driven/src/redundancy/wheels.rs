@@ -6,7 +6,7 @@
 
 use robot_model::effect::Redundancy;
 
-use super::pool::{Measured, beyond, median};
+use super::pool::{Measured, beyond, beyond_usual, median};
 use super::{Fault, spec};
 use crate::run::Run;
 use crate::settings::redundancy::{SETTINGS, Wheels};
@@ -50,13 +50,25 @@ fn scales(run: &Run) -> [Option<Measured>; 2] {
     })
 }
 
-/// Encoder scale of each side.
-pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
+/// Encoder scale of each side; without references beside a wheel of this radius, m, if it is known.
+pub(super) fn check(runs: &[Run], references: &[Run], radius: Option<f64>, out: &mut Vec<Fault>) {
     let Some(spec) = spec(Redundancy::WheelScale) else { return };
     let (here, there): (Vec<_>, Vec<_>) = (runs.iter().map(scales).collect(), references.iter().map(scales).collect());
-    for side in 0..2 {
-        let of = |all: &[[Option<Measured>; 2]]| all.iter().map(|s| s[side]).collect::<Vec<_>>();
-        let Some(d) = beyond(&of(&here), &of(&there), spec.interest) else { continue };
+    let found = [0, 1].map(|side| {
+        let of = |all: &[[Option<Measured>; 2]], radius: f64| -> Vec<Option<Measured>> {
+            all.iter().map(|s| s[side].map(|m| Measured { value: m.value + radius.ln(), ..m })).collect()
+        };
+        match radius.filter(|_| references.is_empty()) {
+            Some(radius) => beyond_usual(&of(&here, radius), None, (WHEELS.usual, spec.interest)),
+            None => beyond(&of(&here, 1.0), &of(&there, 1.0), spec.interest),
+        }
+    });
+    // Without references both sides off are a robot file of other wheels.
+    let is_one = |side: usize| {
+        !references.is_empty() || found[1 - side].is_none_or(|other| other.value.abs() < WHEELS.other * spec.interest)
+    };
+    for side in (0..2).filter(|side| is_one(*side)) {
+        let Some(d) = found[side] else { continue };
         let scale = Measured { value: d.value.exp() - 1.0, sigma: d.value.exp() * d.sigma };
         if scale.is_reportable(spec.interest) {
             out.push(Fault::new((spec, 0), scale, Some(side)));
@@ -97,7 +109,7 @@ mod tests {
     #[test]
     fn an_encoder_of_the_wrong_scale_is_found_with_its_side() {
         for scale in [0.5, 1.4, 2.0] {
-            let found = check(&straight(0.02, scale), &straight(0.02, 1.0)).faults;
+            let found = check(&straight(0.02, scale), &straight(0.02, 1.0), None).faults;
             assert_eq!(found.len(), 1, "{found:?}");
             assert_eq!((found[0].spec.redundancy, found[0].side), (Redundancy::WheelScale, Some(1)));
             approx::assert_abs_diff_eq!(found[0].magnitude, scale - 1.0, epsilon = 0.02);
@@ -105,9 +117,20 @@ mod tests {
     }
 
     #[test]
+    fn without_references_the_radius_of_the_robot_file_tells() {
+        let found = check(&straight(0.02, 1.4), &[], Some(0.1)).faults;
+        assert_eq!((found.len(), found[0].side), (1, Some(1)), "{found:?}");
+        approx::assert_abs_diff_eq!(found[0].magnitude, 0.4, epsilon = 0.02);
+        // Wheels of another radius than the file says, and of what nothing is known.
+        assert!(check(&straight(0.02, 1.0), &[], Some(0.14)).faults.is_empty());
+        assert!(check(&straight(0.02, 1.0), &[], Some(0.1)).faults.is_empty());
+        assert!(check(&straight(0.02, 1.4), &[], None).faults.is_empty());
+    }
+
+    #[test]
     fn slip_and_a_wheel_of_another_radius_are_no_fault() {
         for (slip, scale) in [(0.02, 1.0), (0.4, 1.0), (0.02, 1.1), (0.3, 0.9)] {
-            let found = check(&straight(slip, scale), &straight(0.02, 1.0)).faults;
+            let found = check(&straight(slip, scale), &straight(0.02, 1.0), None).faults;
             assert!(found.is_empty(), "slip {slip}, scale {scale}: {found:?}");
         }
     }

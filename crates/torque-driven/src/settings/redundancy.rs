@@ -36,12 +36,18 @@
         slowest: f64 = 1.5, "rad/s", "guess";
         /// Most turning per driving that is straight.
         straight: f64 = 0.5, "rad/m", "guess";
+        /// Error of the wheel radius in a robot file, one sigma, where no references show it.
+        usual: f64 = 0.05, "share", "guess; tyres under load, and what they slip";
+        /// Share of the size that matters up to which the other side may be off then.
+        other: f64 = 0.5, "1", "guess";
         /// Fewest stretches of driving and of braking.
         fewest: usize = 4, "1", "guess";
     }
 
     /// The accelerometer against the pose.
     acceleration: Acceleration {
+        /// Usual bias along x and y and angle of an accelerometer, one sigma, where no references show it.
+        usual: [f64; 3] = [0.1, 0.1, 0.03], "m/s², m/s², rad", "guess; a sensor of a few hundredths of g that is mounted by eye";
         /// Half of the time over which a second difference of the pose is taken.
         half: f64 = 1.0, "s", "guess";
         /// Noise of the pose that smoothing allows; only the heading is used of it.

@@ -55,7 +55,7 @@ impl Calibrated {
         place: Place,
         law: Option<&Law>,
     ) -> Result<Vec<ResidualWindow>, DiagnosisError> {
-        let sensors = check(&case.recordings, &case.references);
+        let sensors = check(&case.recordings, &case.references, Some(self.robot.wheel_radius));
         let visits = VisitNumbers::new(&self.visits, &visits_of(&case.recordings));
         let mut cuts = cut_all(&case.recordings, &sensors, case, &self.robot, options)?;
         number(&mut cuts, &visits.recordings);
