@@ -1,7 +1,8 @@
 //! Encoders that show another speed than there is: one side is off what is set, and the body turns as is set.
 //!
 //! A motor that does not follow turns the body with it; an encoder that loses counts does not. What such an encoder shows is told
-//! by itself: as a turn it would be one in which the body stands.
+//! by itself: as a turn it would be one in which the body stands. Where the controller follows the counts that are left, both show what
+//! is set and the wheel turns faster: the body then turns while both sides are set alike, in proportion to their speed.
 
 use inference::robust::{MAD_TO_SIGMA, NINETY, median, median_absolute_deviation};
 use verdict::WrongSpeed;
@@ -15,9 +16,17 @@ const ENCODERS: Encoders = CHANGES.encoders;
 /// Finds them in these recordings and marks their rows, which leave all else; `track` is the effective one, m.
 pub(crate) fn mark(references: &[SpeedRun], recordings: &mut [SpeedRun], track: f64) -> Vec<WrongSpeed> {
     let usual = usual(if references.is_empty() { recordings } else { references });
+    let straight = [0, 1].map(|side| usually_rolls(references, side, track));
     let mut out = Vec::new();
     for run in recordings {
-        let found: Vec<WrongSpeed> = (0..2).flat_map(|side| of_side(run, side, usual, track)).collect();
+        let mut found: Vec<WrongSpeed> = (0..2).flat_map(|side| of_side(run, side, usual, track)).collect();
+        let is_new = |w: &WrongSpeed, all: &[WrongSpeed]| {
+            all.iter().all(|o| o.interval[1] < w.interval[0] || w.interval[1] < o.interval[0])
+        };
+        for side in 0..2 {
+            let more = of_followed(run, side, (usual, straight[side]), track);
+            found.extend(more.into_iter().filter(|w| is_new(w, &found)).collect::<Vec<_>>());
+        }
         for (left_out, t) in run.standing.iter_mut().zip(&run.time) {
             *left_out |= found.iter().any(|wrong| (wrong.interval[0]..=wrong.interval[1]).contains(t));
         }
@@ -67,8 +76,59 @@ fn of_side(run: &SpeedRun, side: usize, usual: f64, track: f64) -> Vec<WrongSpee
             side: inference::words::side(side).into(),
             share,
             half: NINETY * (scatter / seconds.max(1.0).sqrt()).hypot(ENCODERS.other / 2.0),
+            is_followed: false,
         };
         (seconds >= ENCODERS.least).then_some(wrong)
+    };
+    let rows = (0..run.time.len()).filter(is_off);
+    pieces(&run.time, rows, ENCODERS.apart).into_iter().filter_map(told).collect()
+}
+
+/// How far a side rolls over what it shows, by how the body turns, if the other side rolls as it shows.
+fn rolls(run: &SpeedRun, side: usize, track: f64, i: usize) -> Option<f64> {
+    let turned = run.yaw_rate.as_ref()?[i] * track;
+    let [left, right] = [0, 1].map(|j| run.speed[j][i]);
+    Some(if side == 1 { (turned + left) / right } else { (right - turned) / left })
+}
+
+/// Whether both sides are set to one speed.
+fn is_straight(run: &SpeedRun, i: usize) -> bool {
+    run.commanded.as_ref().is_some_and(|set| (set[1][i] - set[0][i]).abs() <= ENCODERS.steady)
+}
+
+/// The same of straight driving in these references; as it shows without any.
+fn usually_rolls(runs: &[SpeedRun], side: usize, track: f64) -> f64 {
+    let of_run = |run: &SpeedRun| -> Vec<f64> {
+        let rows = (0..run.time.len()).filter(|&i| is_straight(run, i) && followed(run, i).is_some());
+        rows.filter_map(|i| rolls(run, side, track, i)).collect()
+    };
+    median(runs.iter().flat_map(of_run)).unwrap_or(1.0)
+}
+
+/// Stretches in which a side rolls farther than it shows, in straight driving and in turns alike, although it shows what is set.
+fn of_followed(run: &SpeedRun, side: usize, (usual, straight): (f64, f64), track: f64) -> Vec<WrongSpeed> {
+    let share = |i: usize| {
+        let is_shown = followed(run, i)?.iter().all(|shown| (shown / usual - 1.0).abs() < ENCODERS.other);
+        rolls(run, side, track, i).filter(|_| is_shown).map(|rolls| rolls / straight)
+    };
+    let is_off = |i: &usize| share(*i).is_some_and(|share| share > 1.0 + ENCODERS.rolls);
+    let told = |rows: Vec<usize>| {
+        let shares: Vec<f64> = rows.iter().filter_map(|&i| share(i)).collect();
+        let rolls = median(shares.iter().copied())?;
+        let scatter = MAD_TO_SIGMA * median_absolute_deviation(&shares)?;
+        // A body that stands in a turn goes straight where that is set.
+        let straight = rows.iter().filter(|&&i| is_straight(run, i)).count() as f64 * run.period();
+        let is_one = scatter <= ENCODERS.scatter * (rolls - 1.0);
+        let seconds = rows.len() as f64 * run.period();
+        let wrong = WrongSpeed {
+            recording: run.name.clone(),
+            interval: [run.time[*rows.first()?], run.time[*rows.last()?]],
+            side: inference::words::side(side).into(),
+            share: 1.0 / rolls,
+            half: NINETY * (scatter / seconds.max(1.0).sqrt()).hypot(ENCODERS.other) / rolls.powi(2),
+            is_followed: true,
+        };
+        (is_one && straight >= ENCODERS.least).then_some(wrong)
     };
     let rows = (0..run.time.len()).filter(is_off);
     pieces(&run.time, rows, ENCODERS.apart).into_iter().filter_map(told).collect()
@@ -108,6 +168,33 @@ mod tests {
         assert!((share - 0.7).abs() < 0.01 && *half < 0.05, "{found:?}");
         assert!(runs[0].standing.iter().zip(&runs[0].time).all(|(out, t)| *out == (*from <= *t && t <= until)));
         assert_eq!(crate::standstill::standstills(&runs[0], TRACK), []);
+    }
+
+    #[test]
+    fn counts_that_the_controller_follows_turn_the_body_and_a_body_that_stands_is_no_encoder() {
+        let faster = |from: f64, until: f64| {
+            let mut run = following();
+            for i in (0..run.time.len()).filter(|&i| (from..until).contains(&run.time[i])) {
+                run.yaw_rate.as_mut().expect("a gyro")[i] += (1.0 / 0.7 - 1.0) * run.speed[1][i] / TRACK;
+            }
+            run
+        };
+        let mut runs = [faster(10.0, 40.0)];
+        let found = mark(&[], &mut runs, TRACK);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let WrongSpeed { interval: [from, until], side, share, half, is_followed, .. } = &found[0];
+        assert_eq!((side.as_ref(), is_followed), ("right", &true));
+        assert!((9.9..10.5).contains(from) && (39.5..40.1).contains(until), "{found:?}");
+        assert!((share - 0.7).abs() < 0.02 && *half < 0.05, "{found:?}");
+        assert_eq!(crate::standstill::standstills(&runs[0], TRACK), []);
+
+        // As references have it, it is how this robot drives.
+        assert_eq!(mark(&[faster(0.0, 70.0)], &mut [faster(0.0, 70.0)], TRACK), []);
+        let mut stands = following();
+        for i in (0..stands.time.len()).filter(|&i| (10.0..55.0).contains(&stands.time[i])) {
+            stands.yaw_rate.as_mut().expect("a gyro")[i] = 0.0;
+        }
+        assert_eq!(mark(&[], &mut [stands], TRACK), []);
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let slope: Vec<String> = loads.slope.iter().map(|s| under_all(s, theirs)).collect();
     let gyro: Vec<String> = loads.gyro.iter().filter(|gyro| gyro.is_off).map(gyro_beside_pose::told).collect();
     let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
-    let encoders: Vec<String> = wrong_encoders(&loads.wrong_speeds);
+    let encoders = [false, true].map(|followed| wrong_encoders(&loads.wrong_speeds, followed)).concat();
     let leads = [&standing, &encoders, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
     let rest = match of_loads {
         Verdict::Explained => located(disagreeing(loads, theirs, named(d, loads)), loads),
@@ -46,7 +46,7 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
 }
 
 /// Encoders that show another speed of a side than there is.
-fn wrong_encoders(all: &[WrongSpeed]) -> Vec<String> {
+fn wrong_encoders(all: &[WrongSpeed], is_followed: bool) -> Vec<String> {
     let one = |w: &WrongSpeed| {
         let [from, until] = w.interval;
         format!(
@@ -57,13 +57,19 @@ fn wrong_encoders(all: &[WrongSpeed]) -> Vec<String> {
             recordings(&w.recording)
         )
     };
-    if all.is_empty() {
+    let told = all.iter().filter(|w| w.is_followed == is_followed).map(one).collect::<Vec<_>>().join(", ");
+    if told.is_empty() {
         return Vec::new();
     }
+    let why = if is_followed {
+        "while both sides show what is set and the body turns away from that side, straight ahead too: it loses counts that the controller \
+         follows as well, or the wheels of the other side slip"
+    } else {
+        "while the other side follows what is set and the body turns as is set: it loses counts, or its scale changed"
+    };
     vec![format!(
-        "Wrong wheel speed: an encoder shows {}, while the other side follows what is set and the body turns as is set: it loses counts, or \
-         its scale changed. Nothing else here uses these rows; mend the encoder, and change nothing of the simulation for it.",
-        all.iter().map(one).collect::<Vec<_>>().join(", ")
+        "Wrong wheel speed: an encoder shows {told}, {why}. Nothing else here uses these rows; mend the encoder, and change nothing of the \
+         simulation for it."
     )]
 }
 

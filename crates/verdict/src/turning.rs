@@ -28,7 +28,7 @@ pub struct SideDrift {
     pub side: Option<Word>,
 }
 
-/// A stretch in which the encoder of one side shows another speed than there is: the body turns as is set.
+/// A stretch in which the encoder of one side shows another speed than there is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WrongSpeed {
     /// Name of the recording.
@@ -41,6 +41,9 @@ pub struct WrongSpeed {
     pub share: f64,
     /// Half of its 90 % interval.
     pub half: f64,
+    /// Whether the controller follows it: it shows what is set, and the wheel turns otherwise.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_followed: bool,
 }
 
 /// The gyro's clock of a recording against that of the speeds.

@@ -196,6 +196,10 @@ const fn degrees(x: f64) -> f64 {
         least: f64 = 3.0, "s", "guess, as of a body that stands";
         /// Rows of one stretch are at most this far apart.
         apart: f64 = 4.0, "s", "guess: a change of speed that has to settle";
+        /// Share by which a side rolls farther than it shows, while it shows what is set, from which on it is looked at.
+        rolls: f64 = 0.15, "1", "guess; slopes and unlike tyres turn robots by some per cent";
+        /// Scatter of that share from row to row up to which it is one, over it.
+        scatter: f64 = 0.35, "1", "guess; a body that stands in turns or is pushed shows any";
     }
 
     /// Changes of what turning costs.
