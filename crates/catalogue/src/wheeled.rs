@@ -75,6 +75,18 @@ pub const MOTOR_VISCOUS_FRICTION: CauseSpec = cause(
     ],
 );
 
+/// Drag that grows with the square of the speed.
+pub const BODY_DRAG: CauseSpec = cause(
+    ["body_drag", "drag that grows with the square of the speed"],
+    "Air, water, tall grass or snow that is pushed aside holds the body: four times as much at twice the speed.",
+    ["drag over the square of the speed, beyond what is stated", "N s²/m²"],
+    [
+        "What is missing of the torque grows faster than the speed, on all motors alike",
+        "steady driving at three speeds, the fastest among them",
+        "motor_viscous_friction of all motors over a narrow range of speeds",
+    ],
+);
+
 /// Torque over what is recorded.
 pub const MOTOR_TORQUE_SCALE: CauseSpec = cause(
     ["motor_torque_scale", "motors give another torque than recorded"],
@@ -192,7 +204,7 @@ pub const WHEEL_DIRECTION: CauseSpec = cause(
 );
 
 /// All of them, from the motor to the ground.
-pub const ALL: [&CauseSpec; 15] = [
+pub const ALL: [&CauseSpec; 16] = [
     &MOTOR_TORQUE_SCALE,
     &MOTOR_TORQUE_LAG,
     &MOTOR_DRY_FRICTION,
@@ -204,6 +216,7 @@ pub const ALL: [&CauseSpec; 15] = [
     &TYRE_STIFFNESS,
     &GROUND_GRIP,
     &ROLLING_DRAG,
+    &BODY_DRAG,
     &ROLLER_DRAG,
     &CASTER_ROLLING_DRAG,
     &CASTER_PIVOT_FRICTION,

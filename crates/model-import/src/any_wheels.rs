@@ -236,6 +236,7 @@ fn checked(source: &Source<'_>, of: &File) -> Result<(), ImportError> {
         casters: [None; MOST_CASTERS],
         motors: [None; MOST],
         joints: [None; MOST],
+        drag: 0.0,
         ground: Ground::usual(),
     };
     // Motors and joints are named after what is there; what may be wrong are numbers of links, and where the robot stands.

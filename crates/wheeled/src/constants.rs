@@ -30,6 +30,7 @@ pub enum Quantity {
     Brush,
     Lateral,
     Rest,
+    Drag,
     Grip,
     Rolling,
     RollerDrag,
@@ -269,6 +270,14 @@ pub fn constants(robot: &AnyWheels, has_pose: bool, has_gyro: bool) -> Vec<Const
     }
     let rolling = [sigmas.rolling, usual.rolling, scatter.rolling];
     add(Q::Rolling, ("rolling resistance", None, "1"), (ground.rolling, false, 0.0), rolling, &spec::ROLLING_DRAG);
+    let drag = [sigmas.drag, usual.drag * robot.weight(), scatter.drag * robot.weight()];
+    add(
+        Q::Drag,
+        ("drag over the square of the speed", None, "N s²/m²"),
+        (plant.drag, false, 0.0),
+        drag,
+        &spec::BODY_DRAG,
+    );
     if wheels.iter().any(|(_, (w, _))| w.roller.is_some()) {
         add(
             Q::RollerDrag,

@@ -76,6 +76,7 @@ impl<T: PerLane> Model<T> {
                 Q::Brush => r.ground.brush_share = value,
                 Q::Lateral => r.ground.lateral_stiffness = value,
                 Q::Rest => r.ground.rest_speed = value,
+                Q::Drag => r.drag = value,
                 Q::Grip => r.ground.adhesion = value,
                 Q::Rolling => r.ground.rolling = value,
                 Q::RollerDrag => r.ground.roller_drag = value,

@@ -31,6 +31,8 @@ pub struct Sigmas {
     pub steering: f64,
     /// Angle over what is recorded, relative.
     pub steering_gain: f64,
+    /// Drag over the square of the speed, N s²/m².
+    pub drag: f64,
     /// Rolling resistance.
     pub rolling: f64,
     /// Rolling resistance of casters.
@@ -73,7 +75,12 @@ impl AnyWheels {
     pub(crate) fn torque_scale(&self) -> f64 {
         let radius = self.plant.wheels.iter().flatten().map(|w| w.radius).fold(0.0, f64::max);
         let motors = self.motors.len().max(1) as f64;
-        SETTINGS.known.push * self.plant.mass * self.plant.ground.gravity * radius / motors
+        SETTINGS.known.push * self.weight() * radius / motors
+    }
+
+    /// Weight, N.
+    pub(crate) fn weight(&self) -> f64 {
+        self.plant.mass * self.plant.ground.gravity
     }
 
     /// The same over the wheel speed of a walking pace, N m s/rad.

@@ -156,6 +156,8 @@
         steering: f64 = 0.01, "rad", "guess";
         /// Gain of the steering.
         steering_gain: f64 = 0.02, "share", "guess; linkages";
+        /// Drag over the square of the speed, of the weight.
+        drag: f64 = 0.002, "s²/m²", "guess; air of a robot that fills half a square metre and weighs 15 kg";
         /// Rolling resistance.
         rolling: f64 = 0.005, "1", "guess; a third of usual tyres' on hard ground";
         /// Rolling resistance of casters.
@@ -208,6 +210,8 @@
         steering: f64 = 0.06, "rad", "guess";
         /// Gain of the steering.
         steering_gain: f64 = 0.15, "share", "guess";
+        /// Drag over the square of the speed, of the weight.
+        drag: f64 = 0.03, "s²/m²", "guess; at a walking pace as much as a carpet; tall grass, a sail, a brush that is pushed";
         /// Rolling resistance, of casters, and drag of rollers.
         rolling: f64 = 0.04, "1", "guess; carpet, hair in bearings";
         /// Friction of a caster's pivot over its trail's share of the weight.
@@ -243,6 +247,8 @@
         direction: f64 = 2e-3, "rad", "guess; play";
         /// Rolling resistance.
         rolling: f64 = 0.001, "1", "guess; temperature of tyres";
+        /// Drag over the square of the speed, of the weight.
+        drag: f64 = 1e-4, "s²/m²", "guess; wind of doors";
         /// Slip at the largest force.
         slip: f64 = 0.1, "share", "guess; dust";
         /// Friction coefficient of the ground.

@@ -25,7 +25,7 @@ fn nothing_is_missing_of_a_robot_as_stated() {
 #[test]
 fn what_is_changed_is_named_with_its_size() {
     type Change = fn(&mut Robot<f64>);
-    let cases: [(&str, With, &str, f64, Change); 4] = [
+    let cases: [(&str, With, &str, f64, Change); 5] = [
         ("torque-tricycle", With::Pose, "rolling_drag", 0.05, |r| r.ground.rolling = 0.05),
         ("torque-car", With::Pose, "radius_of_one_wheel (rear left)", 0.092, |r| {
             r.wheels[2].iter_mut().for_each(|w| w.radius = 0.092);
@@ -33,6 +33,7 @@ fn what_is_changed_is_named_with_its_size() {
         ("torque-omni-3", With::Gyro, "motor_torque_scale (motor 2)", 0.75, |r| {
             r.motors[1].iter_mut().for_each(|m| m.gain = 0.75);
         }),
+        ("torque-tricycle", With::Pose, "body_drag", 12.0, |r| r.drag = 12.0),
         ("torque-mecanum-4", With::Pose, "roller_drag", 0.06, |r| r.ground.roller_drag = 0.06),
     ];
     for (name, with, cause, size, change) in cases {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
 use model_export::{AnyWheelsModel, Engine, Input};
-use toml_edit::{Array, Item, TableLike};
+use toml_edit::{Array, InlineTable, Item, TableLike};
 use verdict::Diagnosis;
 use wheeled::file::RobotFile;
 use wheeled::{AnyWheels, Constant, Quantity, constants};
@@ -85,6 +85,7 @@ fn edit(root: &mut dyn TableLike, robot: &AnyWheels, constant: &Constant, found:
     let times = |from: f64| from * found;
     match constant.quantity {
         Q::Mass => value(root, "mass", found),
+        Q::Drag => drag(root, constant.given, found),
         Q::YawInertia => value(root, "yaw_inertia", found),
         Q::ComX => element(root, "centre_of_mass", 0, &to),
         Q::ComY => element(root, "centre_of_mass", 1, &to),
@@ -143,6 +144,17 @@ fn value(root: &mut dyn TableLike, key: &str, found: f64) {
     if let Some(row) = root.get_mut(key).and_then(Item::as_table_like_mut) {
         let from = row.get("value").and_then(number);
         write(row, "value", (from, found));
+    }
+}
+
+/// The drag, which most robot files say nothing of.
+fn drag(root: &mut dyn TableLike, given: f64, found: f64) {
+    if rounded(given) == rounded(found) {
+        return;
+    }
+    let row = root.entry("drag").or_insert_with(|| toml_edit::value(InlineTable::new()));
+    if let Some(row) = row.as_table_like_mut() {
+        write(row, "value", (Some(given), found));
     }
 }
 

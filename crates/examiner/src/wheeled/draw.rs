@@ -170,6 +170,7 @@ fn stated(layout: Layout, s: &mut Stream) -> Robot {
         slip: 0.22,
         rolling: 0.015,
         roller_drag: 0.01,
+        drag: 0.0,
         slope: [0.0; 2],
     }
 }
@@ -268,6 +269,10 @@ fn hide(hidden: Hidden, stated: &Robot, robot: &mut Robot, truth: &mut WheeledTr
         Hidden::Rolling => {
             robot.rolling += s.uniform(0.02, 0.05);
             note("rolling", robot.rolling);
+        }
+        Hidden::Drag => {
+            robot.drag = s.uniform(0.03, 0.06) * stated.mass * 9.81;
+            note("drag", robot.drag);
         }
         Hidden::RollerDrag => {
             robot.roller_drag += s.uniform(0.03, 0.06);

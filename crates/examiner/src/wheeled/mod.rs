@@ -88,6 +88,8 @@ pub enum WheeledHidden {
     SteeringGain,
     /// Wheels roll hard.
     Rolling,
+    /// The air holds the body.
+    Drag,
     /// Rollers roll hard.
     RollerDrag,
     /// Casters roll hard.
@@ -98,7 +100,7 @@ pub enum WheeledHidden {
 
 impl WheeledHidden {
     /// All.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Mass,
         Self::CentreOfMass,
         Self::DryFriction,
@@ -110,6 +112,7 @@ impl WheeledHidden {
         Self::SteeringZero,
         Self::SteeringGain,
         Self::Rolling,
+        Self::Drag,
         Self::RollerDrag,
         Self::CasterDrag,
         Self::Slope,
@@ -129,6 +132,7 @@ impl WheeledHidden {
             Self::SteeringZero => "zero of the steering",
             Self::SteeringGain => "gain of the steering",
             Self::Rolling => "rolling resistance",
+            Self::Drag => "drag of the air",
             Self::RollerDrag => "drag of rollers",
             Self::CasterDrag => "drag of casters",
             Self::Slope => "slope",

@@ -52,6 +52,8 @@ pub(super) struct Robot {
     pub(super) slip: f64,
     pub(super) rolling: f64,
     pub(super) roller_drag: f64,
+    /// Force at its centre of mass over the square of its speed, N s²/m².
+    pub(super) drag: f64,
     /// Gravity along the world, m/s².
     pub(super) slope: [f64; 2],
 }
@@ -223,6 +225,8 @@ impl Robot {
             s.spin[i] += h * turning[i] / (wheel.inertia + h * stiff[i]);
         }
 
+        let speed = s.velocity[0].hypot(s.velocity[1]);
+        force = [0, 1].map(|k| force[k] - self.drag * speed * s.velocity[k]);
         s.specific = force.map(|f| f / self.mass);
         let (sin, cos) = s.yaw.sin_cos();
         let g = self.slope;

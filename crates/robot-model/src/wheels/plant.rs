@@ -287,6 +287,10 @@ impl<T: Scalar> Plant<T> {
                 *to += x;
             }
         }
+        let [x, y] = s.velocity;
+        let drag = self.robot.drag * (x * x + y * y + real(DRAG_REST * DRAG_REST)).sqrt();
+        sum.force[0] -= drag * x;
+        sum.force[1] -= drag * y;
         sum
     }
 

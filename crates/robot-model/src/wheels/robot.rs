@@ -123,6 +123,8 @@ pub struct Robot<T> {
     pub motors: [Option<Motor<T>>; MOST],
     /// Its steering joints.
     pub joints: [Option<Joint<T>>; MOST],
+    /// Drag against its way, at its centre of mass, over the square of the speed, N s²/m²: air, water, a brush that it pushes.
+    pub drag: T,
     /// What it stands on.
     pub ground: Ground<T>,
 }
@@ -191,6 +193,7 @@ impl<T: Scalar> Robot<T> {
             casters,
             motors,
             joints,
+            drag: to(self.drag),
             ground: Ground {
                 adhesion: to(g.adhesion),
                 slip_at_peak: to(g.slip_at_peak),
@@ -235,6 +238,7 @@ impl Robot<f64> {
         }
         let rest = [
             ("com_height", self.com[2]),
+            ("drag", self.drag),
             ("rolling_resistance", g.rolling),
             ("roller_drag", g.roller_drag),
             ("sliding_share", g.sliding_share),

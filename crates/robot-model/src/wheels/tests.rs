@@ -25,6 +25,7 @@ fn robot<const W: usize, const M: usize>(wheels: [Wheel<f64>; W], motors: [Motor
         casters: [None; MOST_CASTERS],
         motors: [None; MOST],
         joints: [None; MOST],
+        drag: 0.0,
         ground: Ground { rolling: 0.0, roller_drag: 0.0, ..Ground::usual() },
     };
     out.wheels.iter_mut().zip(wheels).for_each(|(to, w)| *to = Some(w));

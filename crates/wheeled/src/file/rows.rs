@@ -23,6 +23,7 @@ pub(super) struct File {
     centre_of_mass_sigma: Option<f64>,
     #[serde(rename = "centre_of_mass_source")]
     _centre_of_mass_source: Option<String>,
+    drag: Option<Number>,
     wheel: Vec<WheelRow>,
     #[serde(default)]
     caster: Vec<CasterRow>,
@@ -302,6 +303,7 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
         casters: [None; MOST_CASTERS],
         motors: [None; MOST],
         joints: [None; MOST],
+        drag: read.drag.as_ref().map_or(0.0, |drag| drag.value),
         ground: ground(&read.ground)?,
     };
     for (to, row) in plant.wheels.iter_mut().zip(&read.wheel) {
@@ -338,15 +340,7 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
             pivot_friction: row.pivot_friction,
         });
     }
-    let per_unit = read.motor.iter().map(|m| ("motor", &m.name, "torque_per_unit", m.torque_per_unit));
-    let per_unit = per_unit.chain(read.joint.iter().map(|j| ("joint", &j.name, "angle_per_unit", j.angle_per_unit)));
-    for (part, name, key, value) in per_unit {
-        if value == 0.0 || !value.is_finite() {
-            return Err(format!(
-                "{part} '{name}': {key} is {value}; give what one unit of its column means, or leave it out"
-            ));
-        }
-    }
+    check_units(read)?;
     for (to, row) in plant.joints.iter_mut().zip(&read.joint) {
         if row.unsteered_axle_x == row.place[0] {
             return Err(format!(
@@ -375,6 +369,16 @@ pub(super) fn robot(read: &File) -> Result<AnyWheels, String> {
     };
     out.sigmas = sigmas(read, &out)?;
     Ok(out)
+}
+
+/// Refuses columns of which a unit means nothing.
+fn check_units(read: &File) -> Result<(), String> {
+    let per_unit = read.motor.iter().map(|m| ("motor", &m.name, "torque_per_unit", m.torque_per_unit));
+    let mut per_unit =
+        per_unit.chain(read.joint.iter().map(|j| ("joint", &j.name, "angle_per_unit", j.angle_per_unit)));
+    per_unit.find(|(.., value)| *value == 0.0 || !value.is_finite()).map_or(Ok(()), |(part, name, key, value)| {
+        Err(format!("{part} '{name}': {key} is {value}; give what one unit of its column means, or leave it out"))
+    })
 }
 
 fn ground(row: &GroundRow) -> Result<Ground<f64>, String> {
