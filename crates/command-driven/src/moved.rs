@@ -55,6 +55,13 @@ pub(crate) fn moved(case: &ResponseCase, nominal: [f64; 2], parameters: &[Parame
     [(Element::Radius, "wheel_radius"), (Element::Track, "track")].into_iter().enumerate().filter_map(of).collect()
 }
 
+/// Probability that a centre of rotation that differs by this much, known to a sigma, m, is another one: with what robots slip it moves
+/// from drive to drive by a share of the track.
+pub(crate) fn is_another_centre(delta: f64, own: f64, track: f64) -> f64 {
+    let [usual, change] = [ANSWER.centre, ANSWER.change].map(|share| (share * track).hypot(own));
+    inference::evidence::logistic(log_density(delta, change) - ANSWER.cause - log_density(delta, usual))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,6 +102,12 @@ mod tests {
         assert!((found.retuned.from - 0.75).abs() < 1e-12 && found.is_retuned(), "{:?}", found.retuned);
         // 2 % of 1.5, in sigmas of 0.6 times 2 %.
         assert!((found.retuned.sigmas - 1.0 / 0.6).abs() < 1e-9, "{:?}", found.retuned);
+    }
+
+    #[test]
+    fn a_centre_moves_by_some_per_cent_of_the_track_with_the_drive() {
+        assert!(is_another_centre(0.02, 0.01, 0.5) < 0.1 && is_another_centre(-0.08, 0.02, 0.7) < 0.2);
+        assert!(is_another_centre(0.15, 0.002, 0.5) > 0.99 && is_another_centre(-0.15, 0.002, 0.5) > 0.99);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::controller::answers_apart;
 use crate::identified::Identified;
 use crate::identify::{Base, Identify};
 use crate::left::Remains;
-use crate::moved::Moved;
+use crate::moved::{Moved, is_another_centre};
 use crate::run::{ResponseRun, STEP};
 use crate::search::{Evidence, Part, Trial, open_range, sigmas};
 use crate::settings::{Answer, SETTINGS};
@@ -210,6 +210,9 @@ pub(crate) fn ranked(
         if spec.unit == "s" {
             let later = by_how_much_later(spec, found, base, of.first().copied());
             cause.probability *= later.zip(cause.sigma).map_or(1.0, |(size, sigma)| matters(size, sigma));
+        }
+        if let (true, [q, ..], Some(sigma)) = (spec.id == cause::TURN_CENTRE_OFFSET.id, of.as_slice(), cause.sigma) {
+            cause.probability *= is_another_centre(q.value - q.simulated.unwrap_or(0.0), sigma, track);
         }
         present.push(cause.probability);
         if cause.probability < ANSWER.listed {

@@ -149,6 +149,8 @@
         cause: f64 = 3.0, "nats", "guess: one in twenty, as for an element";
         /// Radius and track change by about so much where tyres or ground are others, one sigma.
         change: f64 = 0.3, "1", "guess: tyres by a tenth, effective tracks by a half";
+        /// The centre of rotation moves from drive to drive by this share of the track, one sigma.
+        centre: f64 = 0.05, "1", "guess; of robots of another hand that skid it seemed to move by up to 0.1 m";
         /// Radius and track move between references and recordings by this share of the robot file's sigma.
         between_visits: f64 = 0.6, "1", "equal to that of torque-driven robots";
         /// A dead time or lag below this is no finding.

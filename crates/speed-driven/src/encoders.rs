@@ -17,22 +17,28 @@ const ENCODERS: Encoders = CHANGES.encoders;
 pub(crate) fn mark(references: &[SpeedRun], recordings: &mut [SpeedRun], track: f64) -> Vec<WrongSpeed> {
     let usual = usual(if references.is_empty() { recordings } else { references });
     let straight = [0, 1].map(|side| usually_rolls(references, side, track));
-    let mut out = Vec::new();
-    for run in recordings {
-        let mut found: Vec<WrongSpeed> = (0..2).flat_map(|side| of_side(run, side, usual, track)).collect();
-        let is_new = |w: &WrongSpeed, all: &[WrongSpeed]| {
-            all.iter().all(|o| o.interval[1] < w.interval[0] || w.interval[1] < o.interval[0])
-        };
-        for side in 0..2 {
-            let more = of_followed(run, side, (usual, straight[side]), track);
-            found.extend(more.into_iter().filter(|w| is_new(w, &found)).collect::<Vec<_>>());
+    let mut all: Vec<Vec<WrongSpeed>> =
+        recordings.iter().map(|run| (0..2).flat_map(|side| of_side(run, side, usual, track)).collect()).collect();
+    // What straight driving shows of a side is it in turns of another recording, too.
+    let mut known: [Option<f64>; 2] = [None; 2];
+    for _ in 0..2 {
+        for (run, own) in recordings.iter().zip(&mut all) {
+            for side in 0..2 {
+                for wrong in of_followed(run, side, (usual, straight[side], known[side]), track) {
+                    known[side] = known[side].or(Some(wrong.share));
+                    if own.iter().all(|o| o.interval[1] < wrong.interval[0] || wrong.interval[1] < o.interval[0]) {
+                        own.push(wrong);
+                    }
+                }
+            }
         }
+    }
+    for (run, found) in recordings.iter_mut().zip(&all) {
         for (left_out, t) in run.standing.iter_mut().zip(&run.time) {
             *left_out |= found.iter().any(|wrong| (wrong.interval[0]..=wrong.interval[1]).contains(t));
         }
-        out.extend(found);
     }
-    out
+    all.concat()
 }
 
 /// Speed shown over speed set of both sides at a row at which what is set has settled.
@@ -106,7 +112,12 @@ fn usually_rolls(runs: &[SpeedRun], side: usize, track: f64) -> f64 {
 }
 
 /// Stretches in which a side rolls farther than it shows, in straight driving and in turns alike, although it shows what is set.
-fn of_followed(run: &SpeedRun, side: usize, (usual, straight): (f64, f64), track: f64) -> Vec<WrongSpeed> {
+fn of_followed(
+    run: &SpeedRun,
+    side: usize,
+    (usual, straight, known): (f64, f64, Option<f64>),
+    track: f64,
+) -> Vec<WrongSpeed> {
     let share = |i: usize| {
         let is_shown = followed(run, i)?.iter().all(|shown| (shown / usual - 1.0).abs() < ENCODERS.other);
         rolls(run, side, track, i).filter(|_| is_shown).map(|rolls| rolls / straight)
@@ -117,6 +128,7 @@ fn of_followed(run: &SpeedRun, side: usize, (usual, straight): (f64, f64), track
         let rolls = median(shares.iter().copied())?;
         let scatter = MAD_TO_SIGMA * median_absolute_deviation(&shares)?;
         // A body that stands in a turn goes straight where that is set.
+        let is_known = known.is_some_and(|share| (1.0 / rolls - share).abs() < ENCODERS.off);
         let straight = rows.iter().filter(|&&i| is_straight(run, i)).count() as f64 * run.period();
         let is_one = scatter <= ENCODERS.scatter * (rolls - 1.0);
         let seconds = rows.len() as f64 * run.period();
@@ -128,7 +140,7 @@ fn of_followed(run: &SpeedRun, side: usize, (usual, straight): (f64, f64), track
             half: NINETY * (scatter / seconds.max(1.0).sqrt()).hypot(ENCODERS.other) / rolls.powi(2),
             is_followed: true,
         };
-        (is_one && straight >= ENCODERS.least).then_some(wrong)
+        (is_one && seconds >= ENCODERS.least && (is_known || straight >= ENCODERS.least)).then_some(wrong)
     };
     let rows = (0..run.time.len()).filter(is_off);
     pieces(&run.time, rows, ENCODERS.apart).into_iter().filter_map(told).collect()
@@ -187,6 +199,16 @@ mod tests {
         assert!((9.9..10.5).contains(from) && (39.5..40.1).contains(until), "{found:?}");
         assert!((share - 0.7).abs() < 0.02 && *half < 0.05, "{found:?}");
         assert_eq!(crate::standstill::standstills(&runs[0], TRACK), []);
+
+        // What straight driving shows is told of arcs as well.
+        let legs = [Leg { speed: [0.15, 0.3], ..Leg::straight(60.0) }];
+        let mut arcs = drive(&legs, false);
+        arcs.commanded = Some(arcs.speed.clone());
+        let turned = (0..arcs.time.len()).map(|i| (arcs.speed[1][i] / 0.7 - arcs.speed[0][i]) / TRACK).collect();
+        arcs.yaw_rate = Some(turned);
+        assert_eq!(mark(&[], &mut [arcs.clone()], TRACK), []);
+        let both = mark(&[], &mut [arcs, faster(10.0, 40.0)], TRACK);
+        assert_eq!(both.iter().filter(|w| w.side == "right").count(), 2, "{both:?}");
 
         // As references have it, it is how this robot drives.
         assert_eq!(mark(&[faster(0.0, 70.0)], &mut [faster(0.0, 70.0)], TRACK), []);

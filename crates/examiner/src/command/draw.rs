@@ -12,6 +12,8 @@ use crate::random::Stream;
 const STEPS: usize = 24;
 const SECONDS: [f64; 2] = [4.0, 7.0];
 const RECORDINGS: usize = 2;
+/// Name of the random numbers of a reference.
+const REFERENCE: &str = "command reference";
 
 /// The case of a plan.
 pub(super) fn case(plan: &CommandPlan) -> CommandCase {
@@ -25,6 +27,11 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
     let mut robot =
         Robot::ideal(radius * (1.0 + s.normal(0.006)), track * (1.0 + s.normal(0.006)), s.uniform(0.004, 0.01));
     let hidden = chosen(plan, &mut stream("command hidden"));
+    if plan.references > 0 {
+        // Motors at their limit in hard steps make a robot another one for a law that knows no motors.
+        let mut s = stream("command motors");
+        robot.strength = [s.uniform(2.0, 6.0) * fastest, s.uniform(1.3, 2.0) * fastest];
+    }
     if let Some(flaw) = plan.in_all.filter(|flaw| !hidden.contains(flaw)) {
         hide(flaw, &mut robot, fastest, [radius, track], &mut stream("command flaw"));
     }
@@ -37,15 +44,18 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
     }
 
     let mut files = vec![(PathBuf::from("robot.toml"), file.into_bytes())];
+    // References are driven otherwise than recordings: smoothly where those are in steps, in turn.
+    let is_smooth = |of_references: bool| plan.references > 0 && of_references == plan.index.is_multiple_of(2);
     let mut drives = |count: usize, [folder, of]: [&str; 2], robot: &Robot| {
         for number in 1..=count {
             let mut s = Stream::new(plan.seed, of, plan.index * 100 + number as u64);
-            let steps = commands(fastest, track / radius, &mut s);
+            let drawn = if is_smooth(of == REFERENCE) { smooth } else { commands };
+            let steps = drawn(fastest, track / radius, &mut s);
             let text = sheet(&run(robot, &steps), radius, &mut s);
             files.push((PathBuf::from(format!("{folder}_{number}.csv")), text.into_bytes()));
         }
     };
-    drives(plan.references, ["references/ref", "command reference"], &sound);
+    drives(plan.references, ["references/ref", REFERENCE], &sound);
     drives(RECORDINGS, ["recordings/run", "command drive"], &robot);
     CommandCase { files, truth: CommandTruth { case: plan.name.clone(), hidden, numbers } }
 }
@@ -123,6 +133,22 @@ fn commands(fastest: f64, track_per_radius: f64, s: &mut Stream) -> Vec<([f64; 2
         }
     }
     out
+}
+
+/// Speeds that swell and fade, and bends to both sides, after a stand.
+fn smooth(fastest: f64, track_per_radius: f64, s: &mut Stream) -> Vec<([f64; 2], f64)> {
+    const ROW: f64 = 0.05;
+    let most = (0.5 * fastest).min(1.25 * track_per_radius);
+    let [swell, bend] = [s.uniform(10.0, 20.0), s.uniform(6.0, 14.0)].map(|period| std::f64::consts::TAU / period);
+    let [first, second] = [0, 1].map(|_| s.uniform(0.0, 6.0));
+    let row = |k: usize| {
+        let t = ROW * k as f64;
+        let begins = (t / 3.0).min(1.0);
+        let forward = begins * fastest * (0.35 + 0.3 * (swell * t + first).sin());
+        let turn = 0.7 * begins * most * (bend * t + second).sin();
+        ([forward - turn, forward + turn], ROW)
+    };
+    std::iter::once(([0.0; 2], 2.0)).chain((0..(STEPS as f64 * SECONDS[0] / ROW) as usize).map(row)).collect()
 }
 
 /// Rows at 20 Hz as sensors show them.

@@ -22,6 +22,8 @@ pub struct Robot {
     pub ramps: [f64; 2],
     /// Lag of the wheels, s.
     pub lag: f64,
+    /// What motors can: largest acceleration of a wheel at rest, rad/s², and the speed at which nothing is left of it, rad/s.
+    pub strength: [f64; 2],
     /// Effective track over the track.
     pub track_factor: f64,
     /// Rolling radius over that of the file.
@@ -43,6 +45,7 @@ impl Robot {
             turn_limit: f64::INFINITY,
             ramps: [f64::INFINITY; 2],
             lag,
+            strength: [f64::INFINITY; 2],
             track_factor: 1.0,
             radius_factor: 1.0,
             side_radius: 0.0,
@@ -86,7 +89,13 @@ pub(super) fn run(robot: &Robot, steps: &[([f64; 2], f64)]) -> Vec<Row> {
         let sides = [set[0] - set[1], set[0] + set[1]];
         for j in 0..2 {
             first[j] = sides[j] + keep * (first[j] - sides[j]);
-            wheel[j] = first[j] + keep * (wheel[j] - first[j]);
+            let aim = first[j] + keep * (wheel[j] - first[j]);
+            let change = aim - wheel[j];
+            // Back-EMF takes the less of it the slower a wheel turns, and adds to it where it brakes.
+            let share =
+                if robot.strength[1].is_finite() { wheel[j] * change.signum() / robot.strength[1] } else { 0.0 };
+            let most = robot.strength[0] * STEP * (1.0 - share).max(0.0);
+            wheel[j] += change.clamp(-most, most);
         }
         let rolls = [wheel[0] * (1.0 + robot.side_radius), wheel[1] * (1.0 - robot.side_radius)];
         let radius = robot.radius * robot.radius_factor;
