@@ -122,6 +122,8 @@
         leaves: f64 = 0.85, "1", "guess; a cause that is there half of the time leaves far less";
         /// The same of one that begins in each drive anew.
         leaves_anew: f64 = 0.7, "1", "guess; an instant for each drive is free to take what counts that are lost leave";
+        /// Errors of causes that are always there, as a share of the motion, below which nothing is looked for in the course of time.
+        errs: f64 = 0.005, "share", "guess; a millimetre of a stretch of 20 cm";
         /// Share of a row's window that has passed after an onset when its error is about half there.
         passed: f64 = 0.6, "share", "mathematics: 0.5 of an error that grows with time, 0.7 of one with its square";
         /// By how much that is unsure.

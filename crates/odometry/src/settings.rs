@@ -171,9 +171,9 @@
         /// Gain of the steering, relative.
         steering_gain: f64 = 0.005, "1", "guess";
         /// Direction of the pose's frame in the robot.
-        mounting: f64 = 0.001, "rad", "guess";
+        mounting: f64 = 0.01, "rad", "guess; half a degree by eye";
         /// Place of the pose's origin in the robot.
-        origin: f64 = 0.001, "m", "guess";
+        origin: f64 = 0.01, "m", "a tape measure";
         /// Share of slip that belongs to every drive.
         slip: f64 = 0.001, "1", "guess";
         /// Slip that grows, per rate, speed or acceleration, that belongs to every drive.

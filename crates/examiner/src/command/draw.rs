@@ -44,12 +44,13 @@ pub(super) fn case(plan: &CommandPlan) -> CommandCase {
     }
 
     let mut files = vec![(PathBuf::from("robot.toml"), file.into_bytes())];
-    // References are driven otherwise than recordings: smoothly where those are in steps, in turn.
-    let is_smooth = |of_references: bool| plan.references > 0 && of_references == plan.index.is_multiple_of(2);
+    // Every other case is driven smoothly beside references in steps, unless a smooth drive does not show what is hidden.
+    let shows = !hidden.iter().any(|h| matches!(h, Hidden::TurnLimit | Hidden::Ramps));
+    let is_smooth = plan.references > 0 && plan.index.is_multiple_of(2) && shows;
     let mut drives = |count: usize, [folder, of]: [&str; 2], robot: &Robot| {
         for number in 1..=count {
             let mut s = Stream::new(plan.seed, of, plan.index * 100 + number as u64);
-            let drawn = if is_smooth(of == REFERENCE) { smooth } else { commands };
+            let drawn = if is_smooth && of != REFERENCE { smooth } else { commands };
             let steps = drawn(fastest, track / radius, &mut s);
             let text = sheet(&run(robot, &steps), radius, &mut s);
             files.push((PathBuf::from(format!("{folder}_{number}.csv")), text.into_bytes()));

@@ -46,6 +46,13 @@ impl Grid {
         all.get(self.least..until).map(|kept| kept.iter().copied().map(of).collect()).unwrap_or_default()
     }
 
+    /// Whether something changes within half a manoeuvre of the first or of the last place at which it may in a series.
+    pub(crate) fn is_at_an_end(&self, series: &[Course], course: &Course) -> bool {
+        let at = series.iter().position(|other| other == course);
+        let near = self.least.div_ceil(2);
+        at.is_some_and(|at| at < near || at + near >= series.len())
+    }
+
     /// Whether nothing changes within a drive.
     pub(crate) fn is_between_drives(&self, course: &Course) -> bool {
         course.iter().zip(&self.lengths).all(|(from, length)| *from == 0 || from == length)
@@ -144,5 +151,13 @@ mod tests {
         };
         let least = |apart: f64| Grid::new(&[drive(9, apart), drive(7, apart)]).least;
         assert_eq!([least(1.0), least(2.0), least(4.0)], [4, 2, 2]);
+
+        let grid = Grid::new(&[drive(9, 1.0), drive(7, 1.0)]);
+        let series = grid.in_series();
+        let at_an_end = |course: &Course| grid.is_at_an_end(&series, course);
+        assert_eq!(
+            series.iter().map(at_an_end).collect::<Vec<_>>(),
+            [true, true, false, false, false, false, true, true]
+        );
     }
 }

@@ -64,9 +64,9 @@ pub(super) struct Sought<'a, D: Observed> {
     pub(super) prior: &'a Prior,
     pub(super) causes: &'a [Cause],
     fit: &'a Fit,
-    grid: Grid,
+    pub(super) grid: Grid,
     /// Where a cause may begin or end once.
-    series: Vec<Course>,
+    pub(super) series: Vec<Course>,
 }
 
 /// Looks for a cause that begins or ends, where that says more of the drives than what was named; the answer with it.

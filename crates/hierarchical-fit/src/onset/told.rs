@@ -48,6 +48,11 @@ impl<D: Observed> Sought<'_, D> {
             return None;
         }
 
+        // Near the beginning or the end of all drives it is how a drive begins or ends.
+        let (_, likeliest) = weighted.instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        if !hypothesis.anew && self.grid.is_at_an_end(&self.series, likeliest) {
+            return None;
+        }
         let (gate, intervals) = when(weighted, &about.off)?;
         // A row tells of the window before it, and is half of the one and half of the other where a part of that has passed.
         let rules = SETTINGS.onset;
@@ -64,7 +69,7 @@ impl<D: Observed> Sought<'_, D> {
         let left = self.data.share_with(mean.as_slice(), &onset);
         let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.share(p.mean.as_slice()));
         let leaves = if hypothesis.anew { rules.leaves_anew } else { rules.leaves };
-        let is_of_motion = left <= leaves * always && left <= D::HARDLY * retuned;
+        let is_of_motion = always >= rules.errs && left <= leaves * always && left <= D::HARDLY * retuned;
         // What a sensor shows otherwise from an instant on is in its own readings.
         let is_of_readings = || {
             let with = self.data.left_with(mean.as_slice(), &onset);
