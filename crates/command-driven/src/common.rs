@@ -17,7 +17,10 @@ const RULES: Rules = SETTINGS.common;
 /// What both sets share, and what recordings show beyond it.
 pub(crate) struct Common<L> {
     pub(crate) base: Model<L>,
+    /// The fit of the recordings, where anything has to differ: of their own, so that its sizes are theirs.
     pub(crate) trial: Trial<L>,
+    /// What it has, and does not have to differ.
+    pub(crate) shared: Vec<Element>,
     /// Of the elements that were named before.
     pub(crate) evidence: Weighed,
 }
@@ -200,7 +203,9 @@ pub(crate) fn common<I: Identify>(
     // What does not have to differ keeps its prior.
     let prior = others.map(|(e, v)| (*e, Evidence { score: v.score.min(-SETTINGS.evidence.prior), ..*v }));
     let evidence = prior.chain(evidence.iter().copied()).collect();
-    Some(Common { base, trial, evidence })
+    let shared: Vec<Element> = found.elements.iter().filter(|e| !joint.differing.contains(e)).copied().collect();
+    let (trial, shared) = if joint.differing.is_empty() { (trial, Vec::new()) } else { (found.clone(), shared) };
+    Some(Common { base, trial, shared, evidence })
 }
 
 #[cfg(test)]
@@ -229,7 +234,7 @@ mod tests {
         let recordings = Windows::new(&[late.run("a", 30, 1), late.run("b", 20, 2)]);
         let (known, out) = shared([&references, &recordings], &[DeadTime, Gain, Lag]);
         let out = out.expect("something is shared");
-        assert_eq!(out.trial.elements, [DeadTime]);
+        assert_eq!((out.trial.elements, out.shared), (vec![DeadTime, Gain, Lag], vec![Gain, Lag]));
         approx::assert_abs_diff_eq!(out.trial.model.x[DEAD_TIME], 0.4, epsilon = 0.02);
         approx::assert_abs_diff_eq!(out.base.x[DEAD_TIME], known.model.x[DEAD_TIME], epsilon = 0.02);
         approx::assert_abs_diff_eq!(out.base.x[GAIN[1]], 0.8, epsilon = 0.02);

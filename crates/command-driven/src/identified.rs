@@ -1,6 +1,6 @@
 //! What recordings show beyond the simulation: the structure of both parts, with what begins inside a recording.
 
-use verdict::Alternative;
+use verdict::{Alternative, Element};
 
 use crate::common::common;
 use crate::controller::Law;
@@ -17,6 +17,8 @@ pub(crate) struct Identified {
     pub(crate) ground: Trial<TurnSlip>,
     /// Evidence for every element that was tried.
     pub(crate) evidence: Weighed,
+    /// What was fitted, though references have it alike: it is not told.
+    pub(crate) shared: Vec<Element>,
     pub(crate) alternatives: Vec<Alternative>,
     /// Whether every other way to hold the sides at a wheel's limit forecasts worse.
     pub(crate) scaling_is_told: bool,
@@ -32,6 +34,7 @@ pub(crate) fn identify(windows: &Windows, base: &Base, nominal: [f64; 2], progre
         drive: of_drive.trial,
         ground: of_ground.trial,
         evidence: of_drive.evidence.into_iter().chain(of_ground.evidence).collect(),
+        shared: Vec::new(),
         alternatives: of_drive.alternatives,
         scaling_is_told: of_drive.scaling_is_told,
     }
@@ -52,9 +55,11 @@ pub(crate) fn beyond_common(
     let is_shared = of_drive.is_some() || of_ground.is_some();
     if let Some(drive) = of_drive {
         (base.drive, found.drive, evidence[0]) = (drive.base, drive.trial, drive.evidence);
+        found.shared.extend(drive.shared);
     }
     if let Some(ground) = of_ground {
         (base.ground, found.ground, evidence[1]) = (ground.base, ground.trial, ground.evidence);
+        found.shared.extend(ground.shared);
     }
     found.evidence = evidence.concat();
     is_shared.then_some((base, found))

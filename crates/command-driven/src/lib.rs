@@ -299,6 +299,7 @@ fn response(
     let [of_drive, of_ground] = name::simulated(base);
     let mut parameters = name::parameters_of(&OfDrive, windows, &found.drive, of_drive);
     parameters.extend(name::parameters_of(&OfGround { nominal }, windows, &found.ground, of_ground));
+    parameters.retain(|p| !found.shared.contains(&p.element));
     let law = found.drive.model.law;
     Response {
         windows: windows.list.len(),

@@ -24,7 +24,8 @@ fn panic(_: &PanicInfo) -> ! {
 
 /// Kept by the linker, so that nothing below is thrown away.
 #[used]
-static KEPT: [extern "C" fn(f32) -> f32; 9] = [plant, any_wheels, paper_plant, side_by_side, identify, every_law, remember, coupled, control];
+static KEPT: [extern "C" fn(f32) -> f32; 9] =
+    [plant, any_wheels, paper_plant, side_by_side, identify, every_law, remember, coupled, control];
 
 /// One step of the plant with every effect of the catalogue at its neutral value.
 extern "C" fn plant(torque: f32) -> f32 {
@@ -56,9 +57,11 @@ extern "C" fn any_wheels(torque: f32) -> f32 {
         yaw_inertia: 1.0,
         com: [0.0; 3],
         wheels: [None; wheels::MOST],
-        casters: [Some(wheels::Caster { pivot: place, trail: 0.1, rolling: 0.0, pivot_friction: 0.1 }); wheels::MOST_CASTERS],
+        casters: [Some(wheels::Caster { pivot: place, trail: 0.1, rolling: 0.0, pivot_friction: 0.1 });
+            wheels::MOST_CASTERS],
         motors: [None; wheels::MOST],
         joints: [None; wheels::MOST],
+        drag: 0.0,
         ground: wheels::Ground::usual(),
     };
     robot.wheels[0] = Some(driven);
