@@ -209,7 +209,7 @@ pub(crate) fn ranked(
         }
         if spec.unit == "s" {
             let later = by_how_much_later(spec, found, base, of.first().copied());
-            cause.probability *= later.zip(cause.sigma).map_or(1.0, |(size, sigma)| matters(size, sigma));
+            cause.probability *= later.map_or(1.0, |size| matters(size, cause.sigma.unwrap_or(0.0)));
         }
         if let (true, [q, ..], Some(sigma)) = (spec.id == cause::TURN_CENTRE_OFFSET.id, of.as_slice(), cause.sigma) {
             cause.probability *= is_another_centre(q.value - q.simulated.unwrap_or(0.0), sigma, track);
