@@ -34,7 +34,6 @@ struct Both<'a, P: Part> {
 }
 
 /// The constants of references and of recordings.
-#[derive(Clone)]
 struct Joint {
     x: [Vec<f64>; 2],
     /// What differs.
@@ -135,8 +134,8 @@ fn settled<'a, P: Part>(
     // What references do not show differs, or is not there.
     let is_shown = |e: &&Element| {
         let others: Vec<Element> = all.iter().filter(|other| other != e).copied().collect();
-        let without = || evidence(parts[0].windows(), &alone(0, &others), &own[0]);
-        known.elements.contains(e) || Some(without()).is_some_and(|v| v.score > 0.0 || v.rise > RULES.clear_rise)
+        let shows = |v: Evidence| v.score > 0.0 || v.rise > RULES.clear_rise;
+        known.elements.contains(e) || shows(evidence(parts[0].windows(), &alone(0, &others), &own[0]))
     };
     let shared: Vec<Element> = all.iter().filter(is_shown).copied().collect();
     both.own = own;

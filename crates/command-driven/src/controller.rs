@@ -171,8 +171,8 @@ impl Lag {
     }
 }
 
-/// By how much wheels answer a step otherwise under two laws, ∫ |h₁ − h₂| dt of their answers to a step of one, means of two rows, s: by their dead times and
-/// lags, or by their lags alone.
+/// By how much wheels answer a step otherwise under two laws, s: ∫ |h₁ − h₂| dt of their answers to a step of one, means of two rows;
+/// by their dead times and lags, or by their lags alone.
 pub(crate) fn answers_apart(laws: [(Law, &[f64]); 2], with_dead_time: bool) -> f64 {
     let answer = |(law, x): (Law, &[f64])| -> Vec<f64> {
         let lag = Lag::new(law, x);

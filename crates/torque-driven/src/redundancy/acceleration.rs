@@ -76,8 +76,7 @@ pub(super) fn check([runs, references]: [&[Run]; 2], gyro: [GyroError; 2], alone
     let mut tell = |spec: &'static EffectSpec, parameter: usize, i: usize| {
         let usual = (ACCELERATION.usual[i], spec.interest);
         let pick = |all: &[[Option<Measured>; 3]]| all.iter().map(|e| e[i]).collect::<Vec<_>>();
-        let references = pick(&there);
-        let d = beyond_usual(&pick(&here), Some(&*references).filter(|r| !r.is_empty()), usual);
+        let d = beyond_usual(&pick(&here), &pick(&there), usual);
         if let Some(d) = d.filter(|d| d.is_reportable(spec.interest)) {
             out.push(Fault::new((spec, parameter), d, None));
         }

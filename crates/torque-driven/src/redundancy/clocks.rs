@@ -86,8 +86,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], out: &mut Vec<Fault>) {
     // Without references sound clocks are taken to agree, but for what usual ones differ by.
     let compare = |pick: &dyn Fn(&Delays) -> Option<Measured>, interest: f64, usual: f64| {
         let of = |all: &[Delays]| all.iter().map(pick).collect::<Vec<_>>();
-        let references = of(&there);
-        beyond_usual(&of(&here), Some(&*references).filter(|r| !r.is_empty()), (usual, interest))
+        beyond_usual(&of(&here), &of(&there), (usual, interest))
     };
     let [usual, usual_growth] = CLOCKS.usual;
     let growth =

@@ -77,13 +77,13 @@ pub(super) fn beyond(
 /// How far the recordings differ from the references, or, where there are none to ask, from zero by more than is usual, one sigma.
 pub(super) fn beyond_usual(
     recordings: &[Option<Measured>],
-    references: Option<&[Option<Measured>]>,
+    references: &[Option<Measured>],
     (usual, interest): (f64, f64),
 ) -> Option<Measured> {
-    match references {
-        Some(references) => beyond(recordings, references, interest),
-        None => alone(recordings, interest).map(|m| Measured { sigma: m.sigma.hypot(usual), ..m }),
+    if references.is_empty() {
+        return alone(recordings, interest).map(|m| Measured { sigma: m.sigma.hypot(usual), ..m });
     }
+    beyond(recordings, references, interest)
 }
 
 /// Least squares of `rows` of columns and value, each coefficient with its sigma; `alike` rows tell as much as one.

@@ -59,7 +59,7 @@ pub(super) fn check(runs: &[Run], references: &[Run], radius: Option<f64>, out: 
             all.iter().map(|s| s[side].map(|m| Measured { value: m.value + radius.ln(), ..m })).collect()
         };
         match radius.filter(|_| references.is_empty()) {
-            Some(radius) => beyond_usual(&of(&here, radius), None, (WHEELS.usual, spec.interest)),
+            Some(radius) => beyond_usual(&of(&here, radius), &[], (WHEELS.usual, spec.interest)),
             None => beyond(&of(&here, 1.0), &of(&there, 1.0), spec.interest),
         }
     });
