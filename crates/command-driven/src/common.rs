@@ -242,17 +242,4 @@ mod tests {
         let again = Windows::new(&[stock.run("a", 30, 1), stock.run("b", 20, 2)]);
         assert!(shared([&references, &again], &[DeadTime, Gain, Lag]).1.is_none());
     }
-
-    #[test]
-    fn what_references_cannot_show_is_not_theirs() {
-        let mut turning = Truth::stock();
-        turning.drive[GAIN[1]] = 1.1;
-        let straight: Vec<[f64; 2]> = (0..4800).map(|i| [3.0 + 2.0 * f64::from(i / 120).sin(); 2]).collect();
-        let straight = crate::ResponseRun::new(&Truth::stock().driven("r", &straight, 3, 0.1)).expect("a run");
-        let references = Windows::new(&[straight]);
-        let recordings = Windows::new(&[turning.run("a", 30, 1), turning.run("b", 20, 2)]);
-        let (known, out) = shared([&references, &recordings], &[Element::TurnLimit, Element::Gain]);
-        let base = out.map_or(known.model, |out| out.base);
-        assert!((base.x[GAIN[1]] - 1.1).abs() > 0.05, "{:?}", base.x);
-    }
 }

@@ -203,6 +203,12 @@ impl Vehicle {
         }
         let is_stiffer =
             (ground.lateral_stiffness - 1.0).abs() > STIFFER && self.wheels.iter().any(|w| w.first.is_none());
+        if self.robot.drag > 0.0 {
+            out.push(format!(
+                "the drag of {} N s²/m² over the square of the speed: push the centre of mass by it against its way",
+                number(self.robot.drag)
+            ));
+        }
         if engine == Engine::Mjcf && is_stiffer {
             out.push(format!(
                 "that tyres are {:.2} times as stiff sideways as ahead: its contacts creep alike both ways",
