@@ -1,9 +1,10 @@
 //! The slope under the robot from the turning rates of its body and from the straight load.
 //!
 //! The upward direction in the body turns by `u̇ = −ω × u`, for small tilts `u̇x = −ω_y + ω_z u_y` and
-//! `u̇y = ω_x − ω_z u_x`; the straight load shows `S = S₀ (1 + c) + m g r u_x` in the direction of travel. A linear
-//! Kalman filter and Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets and the slow change `c` of the
-//! rolling load; an accelerometer shows `u_x` (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
+//! `u̇y = ω_x − ω_z (u_x + a)`, where the forward axis of the unit leans up by `a` in the body; the straight load shows
+//! `S = S₀ (1 + c) + m g r u_x` in the direction of travel, an accelerometer `u_x + a`. A linear Kalman filter and
+//! Rauch–Tung–Striebel smoother over `u_x`, `u_y`, two gyro offsets, the slow change `c` of the rolling load, and `a`
+//! (J. S. Meditch, *Stochastic Optimal Linear Estimation and Control*, 1969, ch. 6).
 
 use inference::interpolate;
 use inference::robust::{MAD_TO_SIGMA, median};
@@ -13,17 +14,19 @@ use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, NAMING, changes::Filter};
 use crate::straight::Reading;
 
-type State = SVector<f64, 5>;
-type Square = SMatrix<f64, 5, 5>;
+type State = SVector<f64, 6>;
+type Square = SMatrix<f64, 6, 6>;
 
 const FILTER: Filter = CHANGES.attitude;
 
 /// Takes what the accelerometer shows on the references, its own tilt in the body, out of the recordings.
 pub(crate) fn set_level(references: &[SpeedRun], recordings: &mut [SpeedRun]) {
     let rates = references.iter().filter_map(|run| run.body_rates.as_ref());
-    let tilt = median(rates.filter_map(|rates| rates.level.as_ref()).flatten().copied()).unwrap_or(0.0);
-    let own = recordings.iter_mut().filter_map(|run| run.body_rates.as_mut());
-    own.filter_map(|rates| rates.level.as_mut()).flatten().for_each(|level| *level -= tilt);
+    let Some(tilt) = median(rates.filter_map(|rates| rates.level.as_ref()).flatten().copied()) else { return };
+    for rates in recordings.iter_mut().filter_map(|run| run.body_rates.as_mut()) {
+        rates.level.iter_mut().flatten().for_each(|level| *level -= tilt);
+        rates.level_sigma = MEASURING.mounting.known;
+    }
 }
 
 /// Means of the accelerometer that do not overlap: steps at which they are taken, and their error, rad.
@@ -149,15 +152,13 @@ fn estimate(
     let slopes = |t: f64| sloping.iter().any(|[from, until]| *from <= t - typical_lag && t - typical_lag <= *until);
 
     // Forward: expect by the turning rates, correct by the loads.
+    // Without an accelerometer the lean shows in turns alone, in which it was looked for.
+    let lean = if rates.level.is_some() { rates.level_sigma } else { 0.0 }.max(MEASURING.mounting.known);
     let first_offset = if rates.is_zero_known { FILTER.first_offset } else { FILTER.unknown_offset };
     let mut x = State::zeros();
-    let mut p = Square::from_diagonal(&State::from([
-        FILTER.first_tilt * FILTER.first_tilt,
-        FILTER.first_tilt * FILTER.first_tilt,
-        first_offset * first_offset,
-        first_offset * first_offset,
-        rolling * rolling,
-    ]));
+    let [tilt, offset] = [FILTER.first_tilt, first_offset];
+    let sigmas = State::from([tilt, tilt, offset, offset, rolling, lean]);
+    let mut p = Square::from_diagonal(&sigmas.component_mul(&sigmas));
     let mut steps: Vec<Step> = Vec::with_capacity(rows);
     for (k, seen) in seen.iter().enumerate() {
         let [wx, wy, wz] = [0, 1, 2].map(|axis| rates.rate[axis][k]);
@@ -167,7 +168,9 @@ fn estimate(
         transition[(0, 2)] = dt;
         transition[(1, 3)] = -dt;
         transition[(4, 4)] = keep;
-        x = transition * x + State::from([-wy * dt, wx * dt, 0.0, 0.0, 0.0]);
+        // A unit that leans shows a part of the turning about its forward axis.
+        transition[(1, 5)] = -wz * dt;
+        x = transition * x + State::from([-wy * dt, wx * dt, 0.0, 0.0, 0.0, 0.0]);
         p = transition * p * transition.transpose() + walk;
         let (expected_x, expected_p) = (x, p);
 
@@ -180,12 +183,13 @@ fn estimate(
         if let Some((level, (every, sigma))) = level
             && k % every == 0
         {
-            let miss = level[k] - x[0];
+            let h = State::from([1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+            let miss = level[k] - h.dot(&x);
             let variance = sigma * sigma * (1.0 + (miss / FILTER.far_off).powi(2));
-            update(&mut x, &mut p, &State::ith(0, 1.0), level[k], variance);
+            update(&mut x, &mut p, &h, level[k], variance);
         }
         for &i in seen {
-            let h = State::from([run.speed[0][i].signum(), 0.0, 0.0, 0.0, 1.0]);
+            let h = State::from([run.speed[0][i].signum(), 0.0, 0.0, 0.0, 1.0, 0.0]);
             let Some(reading) = readings[i] else { continue };
             let z = (reading.value() - usual) / weight;
             let miss = z - h.dot(&x);

@@ -22,6 +22,8 @@ pub struct BodyRates {
     /// Nose up by the accelerometer, averaged and less what the set speeds accelerate, rad; `None` without one, or with one
     /// that does not stand upright.
     pub level: Option<Vec<f64>>,
+    /// How well it is known how the accelerometer leans in the body, one sigma, rad.
+    pub level_sigma: f64,
     /// Whether the robot stood long enough to show what the gyro reads at rest.
     pub is_zero_known: bool,
 }
@@ -43,7 +45,14 @@ impl BodyRates {
             let mean = clock::box_mean(&t, values, ROWS.rate_step);
             grid.iter().map(|&at| interpolate(&t, &mean, at)).collect()
         });
-        Some(Self { time: grid, step: ROWS.rate_step, rate, level: None, is_zero_known: false })
+        Some(Self {
+            time: grid,
+            step: ROWS.rate_step,
+            rate,
+            level: None,
+            level_sigma: MEASURING.mounting.known,
+            is_zero_known: false,
+        })
     }
 
     /// Takes off what the gyro reads of pitching and rolling while the robot stands, `rests` from and until on its clock, s: it would add
@@ -94,7 +103,7 @@ mod tests {
             if (20.0..40.0).contains(&t) { 0.1 * (0.1 * std::f64::consts::PI * (t - 20.0)).sin() } else { 0.0 }
         };
         let rate = offsets.map(|offset| time.iter().map(|t| bump(*t) + offset).collect());
-        BodyRates { time, step: 0.1, rate, level: None, is_zero_known: false }
+        BodyRates { time, step: 0.1, rate, level: None, level_sigma: MEASURING.mounting.known, is_zero_known: false }
     }
 
     fn means(offsets: [f64; 3], rests: &[[f64; 2]]) -> [f64; 3] {

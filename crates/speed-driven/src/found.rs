@@ -87,8 +87,11 @@ fn slopes(slope: &GroundSlope) -> Cause {
 }
 
 /// Whether a ratio is no finding of its own: what it is about changes inside each of its recordings, so that it is no one value; or it is
-/// of the sides, and their wheels have radii of their own.
+/// of the sides, and their wheels have radii of their own; or a track of turns on a slope.
 fn is_told_elsewhere(r: &Ratio, loads: &Loads) -> bool {
+    if is_by_slope(r, loads) {
+        return true;
+    }
     let is_of_sides = matches!(r.quantity, Quantity::Asymmetry | Quantity::SpinAsymmetry);
     if r.quantity == Quantity::Drift || (is_of_sides && loads.drift.is_some()) {
         return true;
@@ -106,6 +109,11 @@ fn is_told_elsewhere(r: &Ratio, loads: &Loads) -> bool {
             }
     };
     r.recording.split(", ").all(changes_in)
+}
+
+/// Whether a slope under all driving may make this track: the lower wheels carry more, and the body slides down while it turns.
+pub(crate) fn is_by_slope(r: &Ratio, loads: &Loads) -> bool {
+    r.quantity == Quantity::EffectiveTrack && loads.slope.is_some_and(|slope| !slope.is_level)
 }
 
 /// The clearest difference of the effective track and that of the loads, the clearer first.

@@ -8,15 +8,14 @@ use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::gyro_beside_pose;
 use inference::words::quantity;
 use robot_model::effects::{gyro_scale, wheel_radius_mismatch};
-use verdict::{
-    Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed,
-};
+use verdict::{Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
 use crate::found::{largest_side_change, longest, strongest};
 use crate::groups::{Disagreement, disagreements};
 use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
+use crate::slope_sentences;
 use crate::words::{
     any_of, change, compared, group, how_it_stands, other_ground, recordings, side_change, turning_change,
 };
@@ -29,7 +28,7 @@ const NINETY_PER_CENT: &str = " (90 %)";
 /// The first sentences; `of_loads` is the verdict of the loads alone, `theirs` what they are compared with.
 pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: &str) -> Vec<String> {
     let standing = standing(&loads.standstills);
-    let slope: Vec<String> = loads.slope.iter().map(|s| under_all(s, theirs)).collect();
+    let slope = slope_sentences::told(loads, theirs);
     let gyro: Vec<String> = loads.gyro.iter().filter(|gyro| gyro.is_off).map(gyro_beside_pose::told).collect();
     let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
     let encoders = [false, true].map(|followed| wrong_encoders(&loads.wrong_speeds, followed)).concat();
@@ -87,29 +86,6 @@ fn drifts(drift: &SideDrift) -> String {
     format!(
         "Missing: wheels of one side of another radius, as a share: {of}. While both sides turn alike, the body turns as if they did not: \
          compare the tyres of both sides, then the counts per turn of their encoders, which look the same."
-    )
-}
-
-/// One slope under all driving, or what pulls like one.
-fn under_all(s: &GroundSlope, theirs: &str) -> String {
-    let [least, most] = s.ratios;
-    let loads =
-        format!("the straight load goes with the direction of travel, from {least:.2} to {most:.2} times {theirs}");
-    let rests = format!("90 %; {} stretches of straight driving", s.stretches);
-    if s.is_level {
-        let share = 100.0 * s.slope.to_radians().sin();
-        let half = 100.0 * s.half.to_radians();
-        return format!(
-            "Something pulls the robot towards one direction under all driving, and it is no slope, for the accelerometer shows none: \
-             {loads}, as by a force of {share:.1} ± {half:.1} % of its weight ({rests}). Wind, a rope or a cable does that; no cause of the \
-             catalogue does. To find out, drive the same ways with nothing fastened to the robot and out of the wind. All other loads \
-             below are of spins on the spot, in which this pull cancels out."
-        );
-    }
-    format!(
-        "Sloping ground under all driving: {loads}, as on a slope of {:.1} ± {:.1}° ({rests}). What this slope pulls is taken off all \
-         loads below of recordings with a yaw rate.",
-        s.slope, s.half
     )
 }
 
@@ -327,6 +303,9 @@ fn standing(all: &[Standstill]) -> Vec<String> {
     // Wheels that find hold take more than a side takes straight ahead.
     let is_light = s.straight.is_some_and(|straight| s.load < ANSWER.light * straight);
     let because = match (s.wheels, s.share) {
+        _ if s.is_off => {
+            "the motors give no torque there: switched off (emergency stop, fuse, driver), or their currents are not measured"
+        }
         (Some(_), _) => "something holds the wheels: an obstacle, a brake, or too little torque",
         (None, Some(_)) if is_light => {
             "that is little more than straight driving takes, so its wheels turn in the air or find no grip"
@@ -340,6 +319,7 @@ fn standing(all: &[Standstill]) -> Vec<String> {
             if s.side.is_some() { "Held wheels" } else { "Standing" },
             recordings(&s.recording),
             match (&s.side, s.wheels) {
+                (None, _) if s.is_off => "the robot is commanded to drive and stands".to_owned(),
                 (Some(side), _) => format!("the wheels of the {side} side are commanded to turn and hardly do"),
                 (None, Some(_)) => "the wheels are commanded to turn and hardly do".to_owned(),
                 (None, None) => "the wheels turn and the body hardly moves".to_owned(),

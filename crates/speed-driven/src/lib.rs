@@ -73,6 +73,7 @@ mod scrub;
 mod sentences;
 mod settings;
 mod slope_pull;
+mod slope_sentences;
 mod slopes;
 mod speeds;
 mod stamps;
@@ -194,17 +195,14 @@ pub fn diagnose_steady(
     };
 
     // What changes inside a recording is reported by itself: the load of the whole recording is measured without it.
-    let leans = [
-        (mounting::set_upright(&mut marked.references), "references"),
-        (mounting::set_upright(&mut marked.recordings), "recordings"),
-    ];
+    let leans = mounting::set_upright(&mut marked.references, &mut marked.recordings);
     attitude::set_level(&marked.references, &mut marked.recordings);
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
     let weight = case.weight(&robot);
     let slope = plane::take_off(&mut marked.recordings, &usual, weight);
     let (changes, pushing) = marking::mark(&mut marked.recordings, &usual, weight.0);
-    let side_changes = one_side::mark(&mut marked.recordings);
+    let side_changes = one_side::mark(&mut marked.recordings, case.torque_sigma);
     standstills.extend(pushing);
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
@@ -269,7 +267,7 @@ pub fn diagnose_steady(
     out.tuning = tunables::<f64>().iter().zip(calibrated.theta).map(|(t, x)| (t.id.to_owned(), x)).collect();
     out.limits = limits(case, &out);
     out.limits.extend(standing_references.iter().map(words::standing_reference).chain(zeros));
-    out.limits.extend(leans.into_iter().filter_map(|(lean, of)| mounting::told(lean, of)));
+    out.limits.extend(leans.told());
     if of_loads == Verdict::Explained {
         let wrong = placebo.map(Named::name);
         out.limits.extend(standing.and_then(|s| s.doubt(&compared, wrong.as_deref())));

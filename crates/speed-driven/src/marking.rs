@@ -78,6 +78,7 @@ fn against_something(run: &mut SpeedRun, change: &LoadChange) -> Standstill {
         interval: [from, until],
         share: None,
         wheels: None,
+        is_off: false,
         side: None,
         load,
         straight: None,

@@ -13,28 +13,77 @@ use crate::settings::{MEASURING, measuring::Mounting};
 
 const MOUNTING: Mounting = MEASURING.mounting;
 
-/// Takes out how the unit leans, forward axis and left axis upward, rad; zero where turns do not show it clearly.
-pub(crate) fn set_upright(runs: &mut [SpeedRun]) -> [f64; 2] {
-    let leans = [0, 1].map(|axis| lean(runs, axis).unwrap_or(0.0));
-    for rates in runs.iter_mut().filter_map(|run| run.body_rates.as_mut()) {
-        let [x, y, z] = &mut rates.rate;
-        for (rate, lean) in [x, y].into_iter().zip(leans) {
-            rate.iter_mut().zip(z.iter()).for_each(|(rate, turn)| *rate -= lean * turn);
-        }
-        rates.level.iter_mut().flatten().for_each(|level| *level -= leans[0]);
-    }
-    leans
+/// How units lean, forward axis and left axis upward, rad; zero where turns do not show it clearly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Leans {
+    pub(crate) references: [f64; 2],
+    pub(crate) recordings: [f64; 2],
+    /// Whether the recordings do not show it themselves, so that the lean of the references was taken.
+    pub(crate) are_of_references: bool,
 }
 
-/// Upward component of one axis: the median over stretches of the share of the turning that it shows.
-fn lean(runs: &[SpeedRun], axis: usize) -> Option<f64> {
+/// Takes out how the unit leans in references and in recordings: of recordings that turn too little to tell, or that tell the same,
+/// as it leans in the references.
+pub(crate) fn set_upright(references: &mut [SpeedRun], recordings: &mut [SpeedRun]) -> Leans {
+    let shown = [0, 1].map(|axis| (lean(references, axis), lean(recordings, axis)));
+    let of_references = shown.map(|(of_references, _)| of_references);
+    let of_recordings = shown.map(|(of_references, own)| match (of_references, own) {
+        (Some(a), Some(b)) if !a.differs(b) && !b.is_clear() => Some(a),
+        (of_references, own) => own.or(of_references),
+    });
+    Leans {
+        references: take_out(references, of_references),
+        recordings: take_out(recordings, of_recordings),
+        are_of_references: shown.iter().all(|(_, own)| own.is_none()),
+    }
+}
+
+/// Turns rates and accelerometer upright by leans that are clear; the level is then known as well as that of the forward axis.
+fn take_out(runs: &mut [SpeedRun], leans: [Option<Lean>; 2]) -> [f64; 2] {
+    let clear = leans.map(|lean| lean.map_or(0.0, Lean::clear));
+    for rates in runs.iter_mut().filter_map(|run| run.body_rates.as_mut()) {
+        let [x, y, z] = &mut rates.rate;
+        for (rate, lean) in [x, y].into_iter().zip(clear) {
+            rate.iter_mut().zip(z.iter()).for_each(|(rate, turn)| *rate -= lean * turn);
+        }
+        rates.level.iter_mut().flatten().for_each(|level| *level -= clear[0]);
+        rates.level_sigma =
+            leans[0].map_or(MOUNTING.unknown, |lean| lean.error.clamp(MOUNTING.known, MOUNTING.unknown));
+    }
+    clear
+}
+
+/// Upward component of one axis, and its error.
+#[derive(Debug, Clone, Copy)]
+struct Lean {
+    value: f64,
+    error: f64,
+}
+
+impl Lean {
+    fn is_clear(self) -> bool {
+        self.value.abs() > MOUNTING.clear * self.error
+    }
+
+    /// Its value where it is clear.
+    fn clear(self) -> f64 {
+        if self.is_clear() { self.value } else { 0.0 }
+    }
+
+    fn differs(self, other: Self) -> bool {
+        (self.value - other.value).abs() > MOUNTING.clear * self.error.hypot(other.error)
+    }
+}
+
+/// Upward component of one axis: the median over stretches of the share of the turning that it shows; `None` of too few.
+fn lean(runs: &[SpeedRun], axis: usize) -> Option<Lean> {
     let all = runs.iter().filter_map(|run| run.body_rates.as_ref());
     let shares: Vec<f64> = all.flat_map(|rates| shares(rates, axis)).collect();
     if shares.len() < MOUNTING.least {
         return None;
     }
     let error = MAD_TO_SIGMA * median_absolute_deviation(&shares)? / (shares.len() as f64).sqrt();
-    median(shares).filter(|lean| lean.abs() > MOUNTING.clear * error)
+    median(shares).map(|value| Lean { value, error })
 }
 
 /// Of every stretch in which the robot turns: slope of an axis' rate over the turning rate, by least squares.
@@ -51,19 +100,29 @@ fn shares(rates: &BodyRates, axis: usize) -> Vec<f64> {
     rates.rate[axis].chunks(steps).zip(rates.rate[2].chunks(steps)).filter_map(of).collect()
 }
 
-/// A lean that is worth telling, for people.
-pub(crate) fn told([x, y]: [f64; 2], of: &str) -> Option<String> {
-    let [along, across] = [x, y].map(|lean| lean.clamp(-1.0, 1.0).asin().to_degrees());
-    (along.hypot(across) > MOUNTING.told).then(|| {
-        format!(
-            "the turns of the {of} show that the inertial unit leans in the body: its forward axis points {:.1}° {}, its left axis \
-             {:.1}° {}; turning rates and accelerometer were turned upright",
-            along.abs(),
-            up_or_down(along),
-            across.abs(),
-            up_or_down(across)
-        )
-    })
+impl Leans {
+    /// Leans that are worth telling, for people.
+    pub(crate) fn told(&self) -> Vec<String> {
+        let told = |[x, y]: [f64; 2], of: &str| {
+            let [along, across] = [x, y].map(|lean| lean.clamp(-1.0, 1.0).asin().to_degrees());
+            (along.hypot(across) > MOUNTING.told).then(|| {
+                format!(
+                    "the turns of the {of} show that the inertial unit leans in the body: its forward axis points {:.1}° {}, its \
+                     left axis {:.1}° {}; turning rates and accelerometer were turned upright",
+                    along.abs(),
+                    up_or_down(along),
+                    across.abs(),
+                    up_or_down(across)
+                )
+            })
+        };
+        let of_references = told(self.references, "references").map(|text| {
+            let note = ", and those of the recordings, which turn too little to show it, with them";
+            if self.are_of_references { text + note } else { text }
+        });
+        let own = if self.are_of_references { None } else { told(self.recordings, "recordings") };
+        of_references.into_iter().chain(own).collect()
+    }
 }
 
 fn up_or_down(angle: f64) -> &'static str {
@@ -94,17 +153,22 @@ mod tests {
     #[test]
     fn a_unit_that_leans_is_set_upright_by_its_turns() {
         let mut runs = [leaning([5.0, -3.0], &rounds(4))];
-        let [x, y] = set_upright(&mut runs);
+        let leans = set_upright(&mut [], &mut runs);
+        let [x, y] = leans.recordings;
         assert_abs_diff_eq!(x, 5.0_f64.to_radians().sin(), epsilon = 1e-3);
         assert_abs_diff_eq!(y, (-3.0_f64).to_radians().sin(), epsilon = 1e-3);
-        let told = told([x, y], "recordings").expect("told");
-        assert!(told.contains("forward axis points 5.0° up, its left axis 3.0° down"), "{told}");
+        let told = leans.told();
+        assert!(
+            told.len() == 1 && told[0].contains("forward axis points 5.0° up, its left axis 3.0° down"),
+            "{told:?}"
+        );
         // A unit that stands upright is left alone, and without turns nothing is known.
         for legs in [rounds(4), vec![Leg::straight(100.0)]] {
             let mut runs = [levelled(&legs, 0.0)];
-            let before = runs[0].body_rates.clone();
-            assert_eq!(set_upright(&mut runs), [0.0; 2]);
-            assert_eq!(runs[0].body_rates, before);
+            let rate = |runs: &[SpeedRun]| runs[0].body_rates.as_ref().expect("rates").rate.clone();
+            let before = rate(&runs);
+            assert_eq!(set_upright(&mut [], &mut runs).recordings, [0.0; 2]);
+            assert_eq!(rate(&runs), before);
         }
     }
 
@@ -122,6 +186,31 @@ mod tests {
             assert!(loads.changes.found.is_empty(), "{:?}", d.sentences);
             assert!(by_file || d.verdict == Verdict::NoMismatch, "{:?}", d.sentences);
             assert!(d.limits.iter().any(|l| l.contains("leans in the body")), "{:?}", d.limits);
+        }
+    }
+
+    #[test]
+    fn recordings_that_hardly_turn_take_the_lean_of_their_references() {
+        let straight = vec![Leg::straight(100.0)];
+        let mut references = [leaning([5.0, 3.0], &rounds(4))];
+        let mut runs = [leaning([5.0, 3.0], &straight)];
+        let leans = set_upright(&mut references, &mut runs);
+        assert_abs_diff_eq!(leans.recordings[0], 5.0_f64.to_radians().sin(), epsilon = 1e-3);
+        assert!(leans.told().len() == 1 && leans.told()[0].contains("which turn too little"), "{:?}", leans.told());
+
+        // A unit that was set upright since is not.
+        let mut runs = [leaning([0.0, 0.0], &rounds(4))];
+        assert_eq!(set_upright(&mut [leaning([5.0, 3.0], &rounds(4))], &mut runs).recordings, [0.0; 2]);
+    }
+
+    #[test]
+    fn a_unit_that_leans_is_no_slope_of_a_drive_that_hardly_turns() {
+        for references in [vec![leaning([5.0, 3.0], &rounds(3))], Vec::new()] {
+            let recordings = vec![leaning([5.0, 3.0], &[Leg::straight(100.0)])];
+            let d = crate::diagnose_steady(&case(references, recordings), &Options::default(), &|_| {})
+                .expect("a diagnosis");
+            let loads = d.steady.as_ref().expect("loads");
+            assert!(loads.changes.found.is_empty(), "{:?}", d.sentences);
         }
     }
 }

@@ -29,11 +29,14 @@ impl Stretch {
     }
 }
 
-/// Finds it in these recordings, and marks the rows from there on, whose straight load is that of the change.
-pub(crate) fn mark(runs: &mut [SpeedRun]) -> Vec<SideChange> {
+/// Finds it in these recordings, and marks the rows from there on, whose straight load is that of the change; torques are known as well
+/// as the torque per current, one sigma, relative.
+pub(crate) fn mark(runs: &mut [SpeedRun], torque_sigma: f64) -> Vec<SideChange> {
     let mut out = Vec::new();
     for run in runs {
-        let Some(found) = change(run) else { continue };
+        let Some(mut found) = change(run) else { continue };
+        let [before, after] = found.torque;
+        found.half = found.half.hypot(NINETY * torque_sigma * (after - before));
         for (changed, t) in run.changed.iter_mut().zip(&run.time) {
             *changed |= *t >= found.onset[0];
         }
@@ -155,7 +158,7 @@ mod tests {
         assert!((by - 6.0).abs() < 0.5, "{found:?}");
 
         let mut runs = [dragged(6.0, 1e9)];
-        assert_eq!(mark(&mut runs), [found]);
+        assert_eq!(mark(&mut runs, 0.0), [found]);
         assert!(
             runs[0]
                 .changed

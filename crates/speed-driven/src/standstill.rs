@@ -2,7 +2,7 @@
 //!
 //! Looked for before anything else is measured: a body that stands has neither loads nor a track.
 
-use inference::robust::{mean, median};
+use inference::robust::{mean, median, quantile, sorted};
 use robot_model::Robot;
 use verdict::{Quantity, Standstill};
 
@@ -70,13 +70,14 @@ pub(crate) fn standstills(run: &SpeedRun, track: f64) -> Vec<Standstill> {
             side: None,
             straight: straight(run),
             load: mean(&|i| run.torque[0][i].abs().max(run.torque[1][i].abs())),
+            is_off: false,
         }
     };
     found.into_iter().map(told).collect()
 }
 
 /// Stretches in which wheels hardly turn although they are commanded to, those of both sides or of one, at torques above those of
-/// driving: motors that are switched off hold nothing.
+/// driving, or next to none: motors that are switched off.
 fn held_wheels(run: &SpeedRun) -> Vec<Standstill> {
     let mut out = held_of(run, &[0, 1]);
     for side in 0..2 {
@@ -108,25 +109,40 @@ fn held_of(run: &SpeedRun, sides: &[usize]) -> Vec<Standstill> {
         let load = mean(rows.iter().map(|&i| most(&run.torque, i)))?;
         let wheels = mean(rows.iter().map(|&i| share(i)))?;
         let lasts = rows.len() as f64 * run.period() >= STUCK.least_seconds;
-        (lasts && load > usual).then(|| Standstill {
+        (lasts && (load > usual || load < STUCK.off * usual)).then(|| Standstill {
             recording: run.name.clone(),
             interval,
             share: None,
             wheels: Some(wheels),
             side: None,
             load,
+            is_off: false,
             straight: straight(run),
         })
     };
     stretches.into_iter().filter_map(told).collect()
 }
 
-/// Torque of a side in straight driving, median, N m.
+/// Torque of a side in straight driving with motors that are not switched off, median, N m.
 fn straight(run: &SpeedRun) -> Option<f64> {
     let is_straight =
         |i: &usize| run.forward(*i).abs() > CHANGES.pieces.driving && run.difference(*i).abs() < MEASURING.turns.steady;
     let rows = (0..run.time.len()).filter(is_straight);
-    median(rows.flat_map(|i| [run.torque[0][i].abs(), run.torque[1][i].abs()]))
+    let torques: Vec<f64> = rows.flat_map(|i| [run.torque[0][i].abs(), run.torque[1][i].abs()]).collect();
+    let large = quantile(&sorted(torques.clone()), STUCK.large)?;
+    median(torques.into_iter().filter(|torque| *torque >= STUCK.off * large))
+}
+
+/// A stretch in which motors give no torque begins and ends with that, whatever else shows it.
+fn while_off(run: &SpeedRun, s: Standstill) -> Standstill {
+    let Some(least) = s.straight.map(|straight| STUCK.off * straight).filter(|least| s.load < *least) else { return s };
+    let is_off = |i: &usize| (0..2).all(|j| run.torque[j][*i].abs() < least);
+    let off = pieces(&run.time, (0..run.time.len()).filter(is_off), STUCK.mean);
+    let shared = |[from, until]: [f64; 2]| until.min(s.interval[1]) - from.max(s.interval[0]);
+    let ends = off.iter().filter_map(|rows| Some([run.time[*rows.first()?], run.time[*rows.last()?]]));
+    let longest = ends.filter(|ends| shared(*ends) > 0.0).max_by(|a, b| shared(*a).total_cmp(&shared(*b)));
+    let [from, until] = longest.unwrap_or(s.interval);
+    Standstill { interval: [from.min(s.interval[0]), until.max(s.interval[1])], is_off: true, ..s }
 }
 
 /// Finds where the bodies of these recordings stand, and marks the rows: they leave all else.
@@ -135,6 +151,8 @@ pub(crate) fn mark(runs: &mut [SpeedRun], track: f64) -> Vec<Standstill> {
     for run in runs {
         let mut found = standstills(run, track);
         found.extend(held_wheels(run));
+        let mut found: Vec<Standstill> = found.into_iter().map(|s| while_off(run, s)).collect();
+        found.dedup_by(|next, s| next.interval == s.interval);
         let stands = |t: f64| found.iter().any(|s| s.interval[0] <= t && t <= s.interval[1]);
         for (standing, t) in run.standing.iter_mut().zip(&run.time) {
             *standing |= stands(*t);
@@ -181,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn wheels_that_are_held_are_found_by_their_commands_and_motors_that_are_off_are_not() {
+    fn wheels_that_are_held_and_motors_that_are_off_are_found_by_their_commands() {
         let mut run = drive(&[Leg::straight(30.0), Leg::straight(10.0), Leg::straight(30.0)], false);
         let still = |t: f64| (30.0..40.0).contains(&t);
         run.commanded = Some(run.speed.clone());
@@ -213,8 +231,23 @@ mod tests {
         for i in 0..off.time.len() {
             off.torque.iter_mut().for_each(|side| side[i] *= if still(off.time[i]) { 0.0 } else { 1.0 });
         }
-        assert_eq!(held_wheels(&off), []);
+        let found = mark(&mut [off], GROUND.track);
+        assert!(found.len() == 1 && found[0].is_off, "{found:?}");
         assert_eq!(held_wheels(&SpeedRun { commanded: None, ..run }), []);
+    }
+
+    #[test]
+    fn motors_that_are_off_are_told_from_the_first_to_the_last_row_without_torque() {
+        let legs = [(AHEAD, 10.0), (SPIN, 8.0), (AHEAD, 10.0)];
+        let mut off = run(100.0, &legs);
+        let is_off = |t: f64| (6.0..25.0).contains(&t);
+        for i in 0..off.time.len() {
+            off.torque.iter_mut().for_each(|side| side[i] *= if is_off(off.time[i]) { 0.0 } else { 1.0 });
+        }
+        let found = mark(&mut [off], GROUND.track);
+        assert!(found.len() == 1 && found[0].is_off, "{found:?}");
+        let [from, until] = found[0].interval;
+        assert!((5.9..6.3).contains(&from) && (24.7..25.1).contains(&until), "{found:?}");
     }
 
     #[test]

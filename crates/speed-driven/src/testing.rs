@@ -85,6 +85,7 @@ pub(crate) fn drive(legs: &[Leg], gyro: bool) -> SpeedRun {
         time: grid,
         step: RATE_STEP,
         level: None,
+        level_sigma: crate::settings::MEASURING.mounting.known,
         is_zero_known: true,
     });
     SpeedRun {

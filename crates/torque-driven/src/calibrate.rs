@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use faer::Mat;
-use inference::robust::median;
 use robot_model::Robot;
 use robot_model::tunable::COUNT as NUISANCES;
 
@@ -13,6 +12,7 @@ use crate::channel::{Channel, Channels};
 use crate::drives::Drives;
 use crate::fit::{Columns, Fitted, Hypothesis, Point, Problem};
 use crate::null_scores::NullScores;
+use crate::regimes::Regimes;
 use crate::run::Run;
 use crate::run_numbers::{UNKNOWN, constant};
 use crate::settings::fit::{Calibrating, SETTINGS};
@@ -48,65 +48,9 @@ const WIDER: [(usize, f64); 4] = [
     (constant("motor_inertia"), CALIBRATING.wider_motor_inertia),
 ];
 
-/// What the robot file says of the constants before anything is driven.
-///
-/// On drives of the robot itself the rest speed stays: with it the slip at the peak of adhesion is another number for the same
-/// motion, and effects are then told of tyres that are as they were.
-pub(crate) fn of_file(is_driven: bool) -> Mat<f64> {
-    let mut information = Mat::identity(NUISANCES, NUISANCES);
-    if is_driven {
-        let place = const { constant("rest_speed") };
-        information[(place, place)] = CALIBRATING.held;
-    }
-    information
-}
-
-/// Expected misfit of a segment from those of the references driven alike.
-#[derive(Clone, Default)]
-pub(crate) struct Regimes {
-    /// Features and ln(q/D) of each reference segment.
-    known: Vec<([f64; 3], f64)>,
-    median: f64,
-    /// By which factor the misfit of each reference segment differs from what the others let expect.
-    pub(crate) scatter: Vec<f64>,
-}
-
-/// Mean of the values of segments driven like `features`: Gaussian kernel of unit width over the features, begun with a
-/// few segments at `middle`.
-pub(crate) fn kernel_mean(known: impl Iterator<Item = ([f64; 3], f64)>, features: [f64; 3], middle: f64) -> f64 {
-    let (mut weight, mut sum) = (CALIBRATING.pseudo_counts, CALIBRATING.pseudo_counts * middle);
-    for (other, value) in known {
-        let distance2: f64 = other.iter().zip(features).map(|(a, b)| (a - b).powi(2)).sum();
-        let k = (-0.5 * distance2).exp();
-        weight += k;
-        sum += k * value;
-    }
-    sum / weight
-}
-
-impl Regimes {
-    fn new(mut known: Vec<([f64; 3], f64)>) -> Self {
-        known.retain(|k| k.1.is_finite());
-        let median = median(known.iter().map(|k| k.1)).unwrap_or(0.0);
-        let mut out = Self { known, median, scatter: Vec::new() };
-        out.scatter =
-            (0..out.known.len()).map(|i| out.known[i].1.exp() / out.expected_but(out.known[i].0, Some(i))).collect();
-        out
-    }
-
-    /// Expected q/D: kernel mean of ln(q/D) over features, unit bandwidth.
-    pub(crate) fn expected(&self, features: [f64; 3]) -> f64 {
-        self.expected_but(features, None)
-    }
-
-    fn expected_but(&self, features: [f64; 3], left_out: Option<usize>) -> f64 {
-        let others = self.known.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, k)| *k);
-        kernel_mean(others, features, self.median).exp()
-    }
-
-    pub(crate) fn of(&self, cuts: &[Cut]) -> Vec<Vec<f64>> {
-        cuts.iter().map(|c| c.segments.iter().map(|s| self.expected(s.regime)).collect()).collect()
-    }
+/// What a robot file says of its constants, in their sigmas.
+pub(crate) fn of_file() -> Mat<f64> {
+    Mat::identity(NUISANCES, NUISANCES)
 }
 
 /// Calibrates the model on the references, from the robot file on.
@@ -148,7 +92,7 @@ pub(crate) fn calibrate_on(
             constants_are_loose: false,
             variance: Channels::all(0.0),
             regime: Vec::new(),
-            information: of_file(driver == Driver::Robot),
+            information: of_file(),
             centre: [0.0; NUISANCES],
             spread: 0.0,
             visits: if driver == Driver::Robot { visits_of_references(cuts) } else { Vec::new() },
@@ -183,7 +127,7 @@ pub(crate) fn calibrate_on(
         problem.variance = Channels::from_fn(|c| problem.variance[c].max(usual[c].powi(2)));
         Regimes::default()
     } else {
-        regimes(&problem, &at.response)
+        Regimes::of_references(&problem, &at.response)
     };
     problem.regime = regimes.of(cuts);
 
@@ -225,7 +169,7 @@ pub(crate) fn alternate(problem: &mut Problem<'_>, steps: usize) -> Fitted {
         at.cost = problem.cost(&at.point, &at.response);
         at = problem.refine(&none, at, 1, (step > 0).then_some(0));
         problem.variance = channel_variance(problem, &at.response);
-        problem.regime = regimes(problem, &at.response).of(problem.cuts);
+        problem.regime = Regimes::of_references(problem, &at.response).of(problem.cuts);
         let moved = at.point.theta.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if step + 1 >= CALIBRATING.steps && moved < CALIBRATING.settled {
             break;
@@ -311,18 +255,6 @@ fn channel_variance(problem: &Problem<'_>, response: &Response) -> Channels<f64>
     })
 }
 
-fn regimes(problem: &Problem<'_>, response: &Response) -> Regimes {
-    let mut known = Vec::new();
-    for (r, cut) in problem.cuts.iter().enumerate() {
-        for (s, segment) in cut.segments.iter().enumerate() {
-            if segment.count > 0.0 {
-                known.push((segment.regime, (problem.q(r, s, &response[r][s]) / segment.count).ln()));
-            }
-        }
-    }
-    Regimes::new(known)
-}
-
 /// The common factor of the run-to-run deviations by marginal likelihood of the linearised model.
 fn likeliest_spread(problem: &mut Problem<'_>, point: &Point, columns: &Columns) -> Result<f64, DiagnosisError> {
     let mut flat = point.clone();
@@ -406,13 +338,5 @@ mod tests {
         for channel in others {
             assert_eq!(calibration.variance[channel], before[channel], "{channel:?}");
         }
-    }
-
-    #[test]
-    fn drives_of_the_robot_hold_the_rest_speed_and_logs_of_a_simulator_do_not() {
-        let rest = constant("rest_speed");
-        let [robot, simulator] = [true, false].map(of_file);
-        assert_eq!([robot[(rest, rest)], simulator[(rest, rest)]], [CALIBRATING.held, 1.0]);
-        assert!((0..NUISANCES).filter(|k| *k != rest).all(|k| robot[(k, k)] == 1.0));
     }
 }

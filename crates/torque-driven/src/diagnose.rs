@@ -6,19 +6,18 @@ use crate::calibrate::{Calibration, calibrate, problem};
 use crate::case::Case;
 use crate::decide::decide;
 use crate::decision::Decision;
-use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::four_motors::{self, Found, with_four_motors};
 use crate::judged::Judged;
+use crate::moved_constants::constants_moved;
 use crate::nothing::{retune, without_effect};
 use crate::own_effects::Runaway;
-use crate::prices::evidence;
 use crate::redundancy::{Redundant, check};
 use crate::run::{Run, largest_torque};
 use crate::search::search;
-use crate::settings::decision::{self, Prices};
 use crate::settings::fit::{Calibrating, SETTINGS};
 use crate::simulator::{Simulator, check_inputs};
-use crate::trial::{SearchResult, Trial};
+use crate::trial::Trial;
 use crate::visit::{Visit, VisitNumbers, visits_of};
 use crate::windows::{Cut, CutOptions, cut};
 use inference::{DiagnosisError, KnownEffects, Options};
@@ -27,7 +26,6 @@ use verdict::{Diagnosis, Verdict};
 use crate::{headings, next, own_effects, stand_in, unnamed};
 
 const CALIBRATING: Calibrating = SETTINGS.calibration;
-const PRICES: Prices = decision::SETTINGS.prices;
 
 /// What the references of a case teach: enough to diagnose any number of recordings of that robot.
 pub struct Calibrated {
@@ -327,32 +325,6 @@ impl Calibrated {
             simulator: self.simulator.as_ref(),
         }
     }
-}
-
-/// Fits of the best hypothesis' effects, each alone, where constants that moved between visits, with one of these or
-/// without any effect, explain the recordings better than the best hypothesis does with constants as the references have
-/// them: by the evidence of both (Laplace), to which many constants that need not move cost much.
-fn constants_moved(
-    before: &Problem<'_>,
-    after: &Problem<'_>,
-    found: &SearchResult,
-    decision: &Decision,
-) -> Option<Vec<Trial>> {
-    let none = Trial { hypothesis: Hypothesis::default(), fitted: found.retuned.clone() };
-    let best = decision.scored.first().map_or(&none, |s| &s.trial);
-    let least = evidence(before, &best.hypothesis, &best.fitted)? + PRICES.moved;
-    // From where the constants are without such moves: from the origin a fit may end far from either.
-    let with_moved = |hypothesis: Hypothesis, effects: Vec<f64>| {
-        let start = if effects.is_empty() { after.origin() } else { best.fitted.point.clone() };
-        let point = Point { effects, ..start };
-        let fitted = retune(after, &hypothesis, after.begin(&hypothesis, point, None));
-        Trial { hypothesis, fitted }
-    };
-    let is_better = |t: &Trial| evidence(after, &t.hypothesis, &t.fitted).is_some_and(|moved| moved > least);
-    let effects = best.hypothesis.each_alone(&best.fitted.point.effects);
-    let trials: Vec<Trial> = effects.into_iter().map(|(h, e)| with_moved(h, e)).collect();
-    let moved = trials.iter().any(is_better) || is_better(&with_moved(Hypothesis::default(), Vec::new()));
-    moved.then_some(trials)
 }
 
 /// Diagnoses a torque-driven case. `progress` is called with the stage that begins.

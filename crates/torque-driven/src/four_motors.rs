@@ -75,7 +75,7 @@ pub(crate) fn gain_of_references(
     largest_torque: f64,
     options: &Options,
 ) -> f64 {
-    let by_file = Calibration { information: of_file(true), theta: [0.0; NUISANCES], ..calibration.clone() };
+    let by_file = Calibration { information: of_file(), theta: [0.0; NUISANCES], ..calibration.clone() };
     let problem = problem(robot, case, references, &by_file, largest_torque, options);
     let at = Point { theta: calibration.theta, ..problem.origin() };
     gain_of_drives(&problem, &at)

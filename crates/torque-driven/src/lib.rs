@@ -7,7 +7,7 @@
 //!   free runs.
 //! * `redundancy/*`: sensor faults that two sensors show without any force law.
 //! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
-//! * `visit`, `between_visits`: drives of one day, place and load, and how far constants move from one to
+//! * `visit`, `between_visits`, `moved_constants`: drives of one day, place and load, and how far constants move from one to
 //!   the next.
 //! * `calibrate`, `null_scores`: constants and noise from the references, and the null score of each
 //!   reference.
@@ -63,6 +63,7 @@ mod limits;
 mod local;
 mod locate;
 mod motion;
+mod moved_constants;
 mod next;
 mod noise_free;
 mod normal;
@@ -77,6 +78,7 @@ mod present;
 mod prices;
 mod redundancy;
 mod refits;
+mod regimes;
 mod retuned;
 mod rms;
 mod run;

@@ -6,6 +6,7 @@ use robot_model::tunable::{Tunable, tunables};
 use crate::judged::Judged;
 use crate::settings::decision::SETTINGS;
 use crate::visit;
+use crate::windows::Segment;
 
 impl Judged<'_> {
     /// The constants of which the usual sigma was taken.
@@ -20,6 +21,26 @@ impl Judged<'_> {
                 "the usual sigma was taken for constants of which the robot file states no sigma, or none above the usual: {}; where \
                  you know them worse than usual, state it",
                 names.join(", ")
+            )
+        })
+    }
+
+    /// Recordings that are driven harder than any reference.
+    fn beyond_references(&self) -> Option<String> {
+        let hardest = |segments: &[Segment]| {
+            let times = segments.iter().map(|segment| self.calibration.regimes.beyond(segment));
+            times.fold(1.0, f64::max)
+        };
+        let harder = self.problem.cuts.iter().map(|cut| (&cut.name, hardest(&cut.segments)));
+        let told: Vec<String> = harder
+            .filter(|(_, times)| self.problem.has_references && *times > SETTINGS.references.harder)
+            .map(|(name, times)| format!("{name} up to {times:.1} times"))
+            .collect();
+        (!told.is_empty()).then(|| {
+            format!(
+                "recordings are driven harder than any reference (faster, in tighter or faster turns, or with larger changes of speed): {}; \
+                 no drive shows what the simulation leaves there, so that a mismatch there says less: give references driven as hard",
+                told.join(", ")
             )
         })
     }
@@ -44,6 +65,7 @@ impl Judged<'_> {
                     .to_owned(),
             );
         }
+        out.extend(self.beyond_references());
         let given = self.case.effects.names();
         if !given.is_empty() {
             out.push(format!("the simulation that is compared has these effects already: {}", given.join(", ")));

@@ -149,6 +149,21 @@ pub(crate) fn as_constant(problem: &Problem<'_>, trial: &Trial) -> Option<(usize
     Some((constant.place, spread(problem, constant.place)? / sigma, point))
 }
 
+/// The constants of a fit without its effects, each moved as if the effect were there everywhere, where it is a constant then.
+pub(crate) fn everywhere(problem: &Problem<'_>, trial: &Trial) -> Point {
+    let Trial { hypothesis, fitted } = trial;
+    let mut point = Point { effects: Vec::new(), ..fitted.point.clone() };
+    let mut sizes = fitted.point.effects.as_slice();
+    for (variant, _) in &hypothesis.parts {
+        let (own, rest) = sizes.split_at(variant.count());
+        sizes = rest;
+        let constant = StandIn::of(&Variant { place: Place::Whole, ..*variant }, problem.robot);
+        let Some((constant, size)) = constant.zip(own.first()) else { continue };
+        point.theta[constant.place] += constant.moved(*size).unwrap_or(0.0) / problem.sigma[constant.place];
+    }
+    point
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -212,6 +227,30 @@ mod tests {
             );
         }
         assert!(as_constant(&problem, &fit("grade", vec![0.02, 0.0])).is_none());
+    }
+
+    #[test]
+    fn grip_that_is_lost_at_a_place_is_adhesion_where_it_is_lost_everywhere() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let problem = problem(&robot, &cuts);
+        let of = |id: &str, place: Place| {
+            let is_it = |v: &Variant| v.spec().id == id && v.place == place;
+            (problem.variants().into_iter().find(is_it).expect("in the catalogue"), Vec::new())
+        };
+        let parts = vec![of("grade", Place::Whole), of("adhesion_patch", Place::Disc)];
+        let h = Hypothesis { parts, acting: None };
+        let point = Point { effects: vec![0.01, 0.02, 0.25, 1.0, 0.5, 2.0], ..problem.origin() };
+        let fitted = problem.begin(&h, point, None);
+        let moved = everywhere(&problem, &Trial { hypothesis: h, fitted });
+        let adhesion = constant("adhesion");
+        let still = problem.origin();
+        approx::assert_relative_eq!(
+            (moved.theta[adhesion] - still.theta[adhesion]) * problem.sigma[adhesion],
+            0.75_f64.ln(),
+            epsilon = 1e-12
+        );
+        assert!((0..NUISANCES).all(|k| k == adhesion || moved.theta[k] == still.theta[k]) && moved.effects.is_empty());
     }
 
     #[test]

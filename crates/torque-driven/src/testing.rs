@@ -10,7 +10,7 @@ use robot_model::tunable::COUNT as NUISANCES;
 use testing::{PERIOD, robot};
 
 use crate::between_visits::Moves;
-use crate::calibrate::{Calibration, Regimes};
+use crate::calibrate::Calibration;
 use crate::case::Case;
 use crate::channel::Channels;
 use crate::decision::Decision;
@@ -20,6 +20,7 @@ use crate::judged::Judged;
 use crate::motion::GyroError;
 use crate::null_scores::NullScores;
 use crate::redundancy::Redundant;
+use crate::regimes::Regimes;
 use crate::run::Run;
 use crate::settings::fit::SETTINGS;
 use crate::windows::{Cut, CutOptions};

@@ -1,6 +1,7 @@
 //! Windows of 0.1 s and the segments from which the model runs free.
 
 use inference::hypothesis::Dose;
+use inference::robust::mean;
 use sim::rollout::Start;
 
 use crate::channel::{Channel, Channels};
@@ -37,6 +38,18 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
+    /// How hard the driving is, in what is usual: by its regime, and by how fast it turns times how fast its wheels do, which a body that
+    /// turns while it drives feels as sideways acceleration.
+    pub(crate) fn hardness(&self) -> [f64; 4] {
+        let cornering = |(shown, valid): (&Channels<f64>, &Channels<bool>)| {
+            let wheels = mean(Channel::WHEELS.into_iter().filter(|c| valid[*c]).map(|c| shown[c]))?;
+            valid[Channel::YawRate].then(|| (wheels * shown[Channel::YawRate]).abs())
+        };
+        let cornering = mean(self.observed.iter().zip(&self.valid).filter_map(cornering)).unwrap_or(0.0);
+        let [turning, speed, range] = self.regime;
+        [turning, speed, range, cornering / (WINDOWS.turning * WINDOWS.range)]
+    }
+
     /// Whether a channel was recorded in any of its windows.
     pub(crate) fn shows(&self, channel: Channel) -> bool {
         self.valid.iter().any(|valid| valid[channel])

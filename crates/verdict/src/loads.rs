@@ -355,6 +355,9 @@ pub struct Standstill {
     pub side: Option<Word>,
     /// Mean torque of the more loaded side, N m.
     pub load: f64,
+    /// Whether that is next to none, so that the motors are switched off.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_off: bool,
     /// Torque of a side in straight driving of this recording, median, N m.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub straight: Option<f64>,

@@ -54,6 +54,7 @@ fn load_changes<'a>(d: &'a Diagnosis, loads: &'a Loads) -> Vec<Stretch<'a>> {
     let standing = loads.standstills.iter().map(|c| {
         let (signal, what) = match &c.side {
             Some(side) => ("wheels stand", format!("the wheels of the {side} side do not turn as commanded")),
+            None if c.is_off => ("body stands", "the motors give no torque".to_owned()),
             None => ("body stands", "the wheels turn and the body does not".to_owned()),
         };
         (c.recording.as_str(), signal, c.interval, Role::Before, what)

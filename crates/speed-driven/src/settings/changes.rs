@@ -1,6 +1,6 @@
 //! Slopes, jumps of the load, turning and standstills inside recordings.
 
-const fn degrees(x: f64) -> f64 {
+pub(super) const fn degrees(x: f64) -> f64 {
     x * std::f64::consts::PI / 180.0
 }
 
@@ -242,6 +242,10 @@ const fn degrees(x: f64) -> f64 {
         follows: f64 = 0.5, "1", "guess";
         /// Wheels are held that turn by less than this share of what is commanded.
         wheels: f64 = 0.2, "1", "guess: a drive that follows is at .9 and more";
+        /// Torque over that of straight driving below which motors are switched off.
+        off: f64 = 0.1, "1", "guess: currents have a dead band, and rolling by itself takes more";
+        /// Quantile of the torques of straight driving that counts as a large one.
+        large: f64 = 0.9, "1", "guess: motors are not switched off for nine tenths of a drive";
         /// Difference of the speeds in a turn that counts.
         turn: f64 = 0.08, "m/s", "guess";
         /// Turning rates are averaged over this long before: a body that is stuck rocks.

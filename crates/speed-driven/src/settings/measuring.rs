@@ -1,5 +1,7 @@
 //! Rows, clocks, loads of steady driving and their comparison with the references'.
 
+use super::changes::degrees;
+
 ::settings::settings! {
     /// What a recording is measured with.
     pub(crate) struct Settings;
@@ -68,6 +70,10 @@
         least: usize = 5, "1", "guess: fewer show no scatter";
         /// Sigmas of its error from which on a lean is taken out.
         clear: f64 = 3.0, "1", "guess";
+        /// Lean of a unit that was turned upright, one sigma at least.
+        known: f64 = degrees(0.1), "rad", "guess: errors of leans by turns";
+        /// Lean of a unit that no turn has told, one sigma.
+        unknown: f64 = degrees(3.0), "rad", "guess: mounted by eye";
         /// Lean from which on it is told.
         told: f64 = 1.0, "°", "guess: units are seldom mounted better";
     }

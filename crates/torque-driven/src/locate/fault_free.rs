@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use robot_model::tunable::COUNT as NUISANCES;
 
-use crate::calibrate::{kernel_mean, of_file};
+use crate::calibrate::of_file;
 use crate::channel::{Channel, Channels};
 use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::regimes::kernel_mean;
 use crate::settings::locate::{FaultFreeDriving, SETTINGS};
 use crate::simulate::Response;
 use crate::windows::Cut;
@@ -112,7 +113,7 @@ fn left_out(references: &Problem<'_>) -> Response {
             let others = Problem {
                 cuts: &cuts,
                 regime: keep().map(|r| references.regime[r].clone()).collect(),
-                information: of_file(true),
+                information: of_file(),
                 centre: [0.0; NUISANCES],
                 ..references.clone()
             };

@@ -10,9 +10,9 @@ use robot_model::tunable::COUNT as NUISANCES;
 use super::follow::{Follower, observe, on_drive};
 use super::menu::{Entry, Setup};
 use super::rivals::Rival;
-use crate::calibrate::Regimes;
 use crate::channel::{Channel, Channels};
 use crate::fit::{Columns, Hypothesis, Point, Problem};
+use crate::regimes::Regimes;
 use crate::settings::next::SETTINGS;
 use crate::simulate::Response;
 use inference::algebra::solve_spd;
@@ -94,7 +94,7 @@ impl Forecaster<'_> {
         let tuning = blank.nuisance_columns(&true_point, &k.hypothesis, &shown);
         drop(blank);
         observe(&mut cut, &shown[0]);
-        let regime = cut.segments.iter().map(|s| self.regimes.expected(s.regime)).collect();
+        let regime = cut.segments.iter().map(|s| self.regimes.expected(s)).collect();
         let new = on_drive(p, robot, &cut, regime);
         let gaps = (0..self.rivals.len())
             .map(|l| if l == truth { Some(Gap::none(&new)) } else { self.gap(&new, &tuning, l) })

@@ -16,10 +16,10 @@ mod tests;
 use rayon::prelude::*;
 use verdict::{Advice, Contender, Manoeuvre};
 
-use crate::calibrate::Regimes;
 use crate::channel::{Channel, Channels};
 use crate::fit::{Fitted, Problem};
 use crate::judged::Judged;
+use crate::regimes::Regimes;
 use crate::settings::{decision, next::SETTINGS};
 use expected_gain::{ExpectedGain, Forecaster};
 use follow::Follower;

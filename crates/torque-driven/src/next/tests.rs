@@ -4,8 +4,8 @@ use robot_model::Robot;
 
 use super::follow::{Follower, observe};
 use super::*;
-use crate::calibrate::Regimes;
 use crate::fit::{Hypothesis, Problem};
+use crate::regimes::Regimes;
 use crate::testing::{cutting, driven, problem};
 use crate::windows::{Cut, cut};
 use inference::hypothesis::{Place, Variant, variants};

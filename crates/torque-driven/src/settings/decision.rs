@@ -164,6 +164,12 @@
         ridge: f64 = 1e-6, "1", "numerical guard";
     }
 
+    /// What references say of recordings.
+    references: References {
+        /// Times as hard as any reference, from which on a recording is told to be driven harder.
+        harder: f64 = 1.5, "1", "guess";
+    }
+
     /// Forecasts of recordings that were left out of the fit.
     leave_out: LeaveOut {
         /// Gauss–Newton steps of a fit to the other recordings.

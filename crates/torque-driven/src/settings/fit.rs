@@ -87,8 +87,6 @@ use crate::channel::ByQuantity;
         coulomb_correlation: f64 = 0.8, "1", "guess: one owner, one gearbox type, one measurement";
         /// References below which no channel is trusted beyond what a tuned simulation of a robot usually leaves.
         enough_references: usize = 2, "1", "formula: one drive cannot be left out to see what a fit to the others leaves of it";
-        /// Information about a constant that stays where the robot file has it, in one over its sigma squared.
-        held: f64 = 1e4, "1", "numerical: a hundredth of its sigma";
         /// Without references, and with too few: what a tuned simulation of a robot leaves in each channel.
         usual_residual: ByQuantity = ByQuantity {
             wheel_speed: 0.12,
@@ -107,6 +105,10 @@ use crate::channel::ByQuantity;
         repeat_change: f64 = 0.12, "1", "the same prototype";
         /// Without references: searches at most.
         most_searches: usize = 3, "1", "guess";
+        /// Power with which the misfit grows where recordings are driven harder than any reference.
+        beyond: f64 = 2.0, "1", "formula: what a law that is not the robot's leaves grows with what it scales, and squares with its square";
+        /// Driving up to which nothing is called hard, in what is usual for speed, turning and their changes.
+        least_driving: f64 = 0.5, "1", "guess";
         /// Segments at the middle that a kernel mean over kinds of driving begins with.
         pseudo_counts: f64 = 2.0, "1", "guess";
     }

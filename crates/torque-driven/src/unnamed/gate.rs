@@ -122,7 +122,7 @@ impl<'a> References<'a> {
         let of_cuts =
             problem(p.robot, judged.case, judged.references, judged.calibration, p.largest_torque, judged.options);
         // What the references taught must not count twice: only the robot file is known before.
-        let problem = Problem { information: of_file(true), centre: [0.0; NUISANCES], ..of_cuts };
+        let problem = Problem { information: of_file(), centre: [0.0; NUISANCES], ..of_cuts };
         let point = Point { theta: judged.calibration.theta, ..problem.origin() };
         let none = Hypothesis::default();
         let begun = problem.begin(&none, point, None);
