@@ -174,7 +174,9 @@ fn torques(recording: &Recording, robot: &Robot<f64>, motion: &Motion) -> Option
     let (speeds, _) = motion.wheels.as_ref()?;
     let shown = motion.torques.as_ref()?;
     let signals = [Signal::TorqueLeft, Signal::TorqueRight];
-    let expected = &torque_of_motion(robot, speeds);
+    // An encoder of another scale makes turns of straight driving; a gyro does not.
+    let turn = motion.gyro.clone().unwrap_or_else(|| turn_of_wheels(robot, speeds));
+    let expected = &torque_of_motion(robot, speeds, &turn);
     let (by, least) = ("the torque that the robot of the file needs for the motion of its wheels", dry_friction(robot));
     let units = "write the factor that makes it N m at the wheels in the mapping (1 N m is 0.1020 kgf m; a torque at the \
                  motor times the gear ratio is one at the wheels)";
@@ -187,12 +189,11 @@ fn dry_friction(robot: &Robot<f64>) -> f64 {
     f64::midpoint(robot.coulomb[0], robot.coulomb[1])
 }
 
-/// Torque of each side that moves the robot as its wheels turn, if they roll: inertia, friction of drive and rolling, and
+/// Torque of each side that moves the robot as its wheels and its body turn, if they roll: inertia, friction of drive and rolling, and
 /// the scrub of wheels that are pushed aside in a turn, N m. Rough: cosines are all that is asked of it.
-fn torque_of_motion(robot: &Robot<f64>, speeds: &Sides) -> Sides {
+fn torque_of_motion(robot: &Robot<f64>, speeds: &Sides, turn: &[f64]) -> Sides {
     let r = robot.wheel_radius;
     let rates: Sides = from_fn(|side| slope(&speeds[side], COLUMNS.step));
-    let turn = turn_of_wheels(robot, speeds);
     let (along, about) = (robot.mass * r * r / 4.0, robot.yaw_inertia * (r / robot.half_track).powi(2) / 4.0);
     let of_wheels = robot.side_inertia();
     let weight = robot.mass * robot.gravity;

@@ -109,6 +109,23 @@ fn what_robots_do_is_no_contradiction() {
 }
 
 #[test]
+fn an_encoder_of_another_scale_does_not_exchange_torques() {
+    // Wide bends to the left, which are bends to the right by the wheels alone.
+    let (r, b) = (robot().wheel_radius, robot().half_track);
+    let turn = |t: f64| 0.25 * (0.3 * t).sin().powi(2);
+    let wheel = |side: f64, t: f64| (forward(t) + side * b * turn(t)) / r;
+    let torque = |side: f64, t: f64| 0.8 * (wheel(side, t) / 0.3).tanh() + side * 3.0 * (turn(t) / 0.1).tanh();
+    let channels = vec![
+        (Signal::WheelSpeedLeft, samples(ROWS, |t| 1.8 * wheel(-1.0, t))),
+        (Signal::WheelSpeedRight, samples(ROWS, |t| wheel(1.0, t))),
+        (Signal::TorqueLeft, samples(ROWS, |t| torque(-1.0, t))),
+        (Signal::TorqueRight, samples(ROWS, |t| torque(1.0, t))),
+        (Signal::GyroZ, samples(ROWS, turn)),
+    ];
+    assert_eq!(told(&channels), None);
+}
+
+#[test]
 fn wheels_are_held_against_the_pose() {
     let right = &WHEELS[1..];
     tells(&scaled(without(&[]), right, -1.0), "the motion of the pose", "`sign = -1` for wheel_speed_right");
