@@ -5,16 +5,17 @@ use crate::CauseSpec;
 /// The robot is commanded to drive and does not.
 pub const STANDING: CauseSpec = CauseSpec {
     id: "standing",
-    name: "the robot stands although it is commanded to drive: dug in, or its wheels spin or are held",
+    name: "the robot stands although it is commanded to drive: dug in, its wheels spin or are held, or its motors are off",
     robots: "speed-driven",
     meaning: "The wheels are driven at speeds that would move the robot, and the body does not move with them: it is dug in, its \
-        wheels spin, or it pushes against something. Or the wheels themselves do not turn as commanded.",
+        wheels spin, or it pushes against something. Or the wheels themselves do not turn as commanded: something holds them, or the motors \
+        give no torque (an emergency stop, a fuse, the driver).",
     size: "yaw rate over what the wheels' speeds and the effective track of the references give; of wheels that are held, their \
         speed over the commanded one",
     unit: "-",
     recognised: "For three seconds or more the gyro shows less than about a third of the yaw rate that the wheels ask for; or \
-        straight driving takes more than 0.4 of the robot's weight, which no ground does by resisting to roll; or measured wheel speeds are below a fifth of the commanded ones while \
-        the torque is above that of driving.",
+        straight driving takes more than 0.4 of the robot's weight, which no ground does by resisting to roll; or measured wheel speeds are below a fifth of the commanded ones \
+        while the torque is above that of driving, or below a tenth of it.",
     revealed_by: "turns both ways, a gyro recorded",
     resembles: "a gyro that is off or of another scale; a track that is much longer than thought",
 };

@@ -28,7 +28,11 @@ const ANSWER: Answer = NAMING.answer;
 /// causes to look for, then changes inside recordings; a body that stands is one always, and comes first.
 pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     for difference in strongest(loads).into_iter().filter(|r| r.quantity != Quantity::EffectiveTrack) {
-        weigh_against_nothing(out, difference);
+        nothing_at_most(out, 1.0 - differs(difference));
+    }
+    // No drive train makes another ground of a stretch.
+    if loads.on_grounds && out.verdict == Verdict::Explained {
+        nothing_at_most(out, 1.0 - ANSWER.changed);
     }
     if matches!(out.verdict, Verdict::NoMismatch | Verdict::Withheld) {
         for difference in strongest(loads) {
@@ -121,7 +125,10 @@ pub(crate) fn strongest(loads: &Loads) -> Vec<&Ratio> {
     let of = |track: bool| {
         let of_whole = reported(loads).filter(|r| !is_told_elsewhere(r, loads));
         let own = of_whole.filter(|r| (r.quantity == Quantity::EffectiveTrack) == track);
-        own.filter(|r| judgement(r) == Judgement::Differs).max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))
+        let is_clear = |r: &&Ratio| r.firm || sigmas(r) > ANSWER.tentative * NINETY;
+        own.filter(|r| judgement(r) == Judgement::Differs)
+            .filter(is_clear)
+            .max_by(|a, b| sigmas(a).total_cmp(&sigmas(b)))
     };
     let mut out: Vec<&Ratio> = [of(true), of(false)].into_iter().flatten().collect();
     out.sort_by(|a, b| sigmas(b).total_cmp(&sigmas(a)));
@@ -177,12 +184,12 @@ pub(crate) fn tracks(r: &Ratio, gyro_is_known: bool) -> Vec<Cause> {
     std::iter::once(measured).chain(soft).chain(Some(gyro).filter(|_| !gyro_is_known)).collect()
 }
 
-/// "Nothing is missing" becomes at most as probable as it is that this ratio, whose interval excludes no difference, does not
-/// differ after all; the others share what it loses.
-fn weigh_against_nothing(out: &mut Diagnosis, difference: &Ratio) {
+/// "Nothing is missing" becomes at most as probable as this, as where an interval excludes no difference that there is none after all; the
+/// others share what it loses.
+fn nothing_at_most(out: &mut Diagnosis, most: f64) {
     let none = |c: &&Cause| c.effect == NONE.id;
     let before = out.ranked.iter().find(none).map_or(0.0, |c| c.probability);
-    let after = before.min(1.0 - differs(difference));
+    let after = before.min(most);
     for c in &mut out.ranked {
         let [own, of] = if c.effect == NONE.id { [after, before] } else { [1.0 - after, 1.0 - before] };
         c.probability *= own / of.max(1e-9);

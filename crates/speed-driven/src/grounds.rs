@@ -129,7 +129,9 @@ impl Usual<'_> {
         }
         let differences = differences(&loads, self.references);
         let comparison = Comparison::new(&differences, self.robot, self.sigma, self.calibrated);
-        let naming = comparison.and_then(|c| name(&c, Open { same_robot: true, one_slope: false }));
+        let ends = run.time.last().is_some_and(|last| until < *last);
+        let open = Open { same_robot: true, one_slope: false, of_ground: ends };
+        let naming = comparison.and_then(|c| name(&c, open));
         let causes = fitting(naming.as_ref()).into_iter().flat_map(Named::ids).map(str::to_owned).collect();
         Some(OtherGround { recording: run.name.clone(), interval, reach: [from, until], ratios, causes })
     }

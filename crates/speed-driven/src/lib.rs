@@ -236,7 +236,7 @@ pub fn diagnose_steady(
     let differences = differences(&of_recordings, &refs);
     let compared = differences.iter().map(|d| (d.here.at.quantity, &d.recording));
     let one_slope = heading::may_be_one_slope(compared, &case.recordings);
-    let open = Open { same_robot: options.same_robot, one_slope };
+    let open = Open { same_robot: options.same_robot, one_slope, of_ground: false };
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
     let naming = comparison.as_ref().and_then(|c| name(c, open));
     loads.drift = comparison.as_ref().and_then(Comparison::side_drift);

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use catalogue::speed_driven::SOFT_GROUND;
 use rayon::prelude::*;
 use robot_model::effect::Role;
+use robot_model::effect::export::Section;
 use robot_model::effects::grade;
 use verdict::Quantity;
 
@@ -135,6 +136,8 @@ pub(crate) struct Open {
     pub(crate) same_robot: bool,
     /// All straight driving is at one place in one heading, so that one slope may be under all of it.
     pub(crate) one_slope: bool,
+    /// It begins and ends while the robot drives: only what the ground does.
+    pub(crate) of_ground: bool,
 }
 
 /// Weighs every effect that can be present everywhere, every pair with one of the best, and soft ground against the
@@ -146,6 +149,7 @@ pub(crate) fn name(comparison: &Comparison, open: Open) -> Option<Naming> {
         // Shapes speak of how an effect comes and goes; steady loads cannot tell them.
         .filter(|v| v.spec().parameters.iter().all(|p| p.role != Role::Shape))
         .filter(|v| open.one_slope || v.spec().id != grade::SPEC.id)
+        .filter(|v| !open.of_ground || v.spec().export.section == Section::Ground)
         .filter(|v| !open.same_robot || !catalogue::needs_a_hand(v.spec().id))
         .collect();
     let mut singles: Vec<Named> = candidates.par_iter().filter_map(|v| comparison.fit(&[*v], None)).collect();

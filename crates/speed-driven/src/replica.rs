@@ -84,7 +84,7 @@ impl Replicas {
             of_references,
             of_recordings,
             right,
-            open: Open { same_robot: options.same_robot, one_slope },
+            open: Open { same_robot: options.same_robot, one_slope, of_ground: false },
             drives: case.recordings.iter().map(|run| (run.name.clone(), seconds(run))).collect(),
             references: case.references.len(),
             case: SteadyCase { references: Vec::new(), recordings: Vec::new(), ..marked },

@@ -94,6 +94,8 @@
         soft: f64 = 0.5, "1", "guess: or another surface, or other tyres";
         /// Probability that another effective track is an error of the gyro's scale.
         gyro: f64 = 0.25, "1", "guess: gyros are exchanged less often than grounds";
+        /// Half widths of their 90 % intervals by which loads of little steady driving have to differ to count.
+        tentative: f64 = 2.0, "1", "guess: a few seconds show more than they scatter by";
         /// Probability that a change inside a recording is one: it is reported where its 90 % interval shows it.
         changed: f64 = 0.9, "1", "definition of the interval";
         /// Members of a class at most, the likeliest; the table of causes has all.
