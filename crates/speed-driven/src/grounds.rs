@@ -339,9 +339,27 @@ mod tests {
     }
 
     #[test]
+    fn beside_another_ground_of_a_stretch_nothing_is_missing_is_improbable() {
+        let nothing = |on_grounds: bool| {
+            let mut d = diagnosis(&[&on(1.9, 1.0, 4)]);
+            assert_eq!(d.verdict, Verdict::Explained);
+            // As where a load differs by as much as cold drive trains do.
+            let none = |c: &verdict::Cause| c.effect == catalogue::answer::NONE.id;
+            d.ranked.iter_mut().for_each(|c| c.probability = if none(c) { 0.5 } else { 0.25 });
+            crate::found::add(&mut d, None, &verdict::Loads { on_grounds, ..verdict::Loads::default() });
+            d.ranked.iter().find(|c| none(c)).map(|c| c.probability)
+        };
+        assert_eq!(nothing(false), Some(0.5));
+        approx::assert_relative_eq!(nothing(true).expect("ranked"), 0.1, epsilon = 1e-12);
+    }
+
+    #[test]
     fn what_shows_a_ground_is_told_with_it_alone() {
         let d = diagnosis(&[&[on(1.0, 1.0, 3), on(2.2, 1.0, 1), on(1.0, 1.0, 2)].concat()]);
         assert_eq!(grounds(&d).len(), 1, "{:?}", d.sentences);
         assert!(!d.sentences.iter().any(|s| s.contains("a slope that does this")), "{:?}", d.sentences);
+        // A drive train does not begin and end with a ground.
+        let causes = &grounds(&d)[0].1;
+        assert!(!causes.is_empty() && !causes.iter().any(|id| id == "viscous_friction"), "{causes:?}");
     }
 }

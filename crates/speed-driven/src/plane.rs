@@ -305,6 +305,29 @@ mod tests {
     }
 
     #[test]
+    fn a_track_of_turns_on_a_slope_says_nothing_of_tyres_or_the_gyro() {
+        let runs = [0.4, 2.0].map(|uphill| drive(&on_plane(4.0, uphill), false));
+        let runs = runs.into_iter().enumerate().map(|(k, run)| SpeedRun { name: k.to_string(), ..run }).collect();
+        let case = case(vec![drive(&rounds(3), false)], runs);
+        let d = diagnose_steady(&case, &Options::default(), &|_| {}).expect("a diagnosis");
+        let mut loads = d.steady.expect("loads");
+        let is_track = |r: &&mut verdict::Ratio| r.quantity == verdict::Quantity::EffectiveTrack;
+        for track in loads.ratios.iter_mut().chain(&mut loads.pooled).filter(is_track) {
+            (track.ratio, track.interval) = (0.8, [0.77, 0.83]);
+        }
+        let told = |loads: &verdict::Loads| {
+            let strongest = crate::found::strongest(loads);
+            let has_track = strongest.iter().any(|r| r.quantity == verdict::Quantity::EffectiveTrack);
+            (has_track, crate::slope_sentences::told(loads, "those of the references"))
+        };
+        let (has_track, sentences) = told(&loads);
+        assert!(!has_track && sentences.len() == 2, "{sentences:?}");
+        assert!(sentences[1].contains("0.80 times") && sentences[1].contains("A slope changes it"), "{sentences:?}");
+        loads.slope = None;
+        assert_eq!(told(&loads), (true, Vec::new()));
+    }
+
+    #[test]
     fn what_pulls_like_a_slope_on_ground_that_an_accelerometer_shows_level_is_unknown() {
         let pulled = |(k, uphill): (usize, f64)| {
             let run = drive(&on_plane(4.0, uphill), false);

@@ -64,6 +64,20 @@ fn another_track_is_a_difference_though_the_loads_are_alike() {
 }
 
 #[test]
+fn a_load_of_a_few_seconds_counts_only_far_beyond_its_interval() {
+    let slides: Vec<Leg> = rounds(3).into_iter().map(|leg| Leg { turned: 0.8, ..leg }).collect();
+    let mut loads = diagnosis(&[&slides]).steady.expect("loads");
+    let one = crate::found::strongest(&loads)[0].clone();
+    let of = |firm: bool, interval: [f64; 2]| vec![verdict::Ratio { firm, interval, ratio: 1.2, ..one.clone() }];
+    let (near, far) = ([1.05, 1.37], [1.15, 1.25]);
+    loads.pooled = Vec::new();
+    for (firm, interval, counts) in [(true, near, true), (false, near, false), (false, far, true)] {
+        loads.ratios = of(firm, interval);
+        assert_eq!(!crate::found::strongest(&loads).is_empty(), counts, "{firm} {interval:?}");
+    }
+}
+
+#[test]
 fn without_references_a_track_is_as_unsure_as_the_file_says_of_radius_and_track() {
     let width = |sigma: f64| {
         let case = SteadyCase {
