@@ -4,7 +4,7 @@
 //! were left out tell: `Δ = Σ (Fᵢ without − Fᵢ with)`, the gain in their segments' costs `F`, and its standard error from how it differs
 //! between segments (leave-one-out cross-validation: Vehtari, Gelman and Gabry 2017, Statistics and Computing 27, 1413, section 5).
 
-use inference::hypothesis::Variant;
+use inference::hypothesis::{Place, Variant};
 use inference::robust::mean_with_error;
 use rayon::prelude::*;
 
@@ -72,8 +72,8 @@ impl Judged<'_> {
     fn least_needed(&self, best: &Scored, all: &Decision, retuned: &Fitted) -> Option<(Hypothesis, Unconfirmed)> {
         let parts = best.trial.hypothesis.parts.iter().enumerate();
         let is_alone = best.trial.hypothesis.parts.len() == 1;
-        let asked: Vec<usize> =
-            parts.filter(|(_, (variant, _))| !is_alone || self.is_told_by_forecasts(variant)).map(|(i, _)| i).collect();
+        let asked = parts.filter(|(_, (variant, _))| !is_alone || self.is_told_by_forecasts(variant)).map(|(i, _)| i);
+        let asked: Vec<usize> = asked.filter(|part| !self.shows_once(&best.trial, *part)).collect();
         if asked.is_empty() {
             return None;
         }
@@ -107,6 +107,36 @@ impl Judged<'_> {
     fn is_told_by_forecasts(&self, variant: &Variant) -> bool {
         let stands_in = StandIn::of(variant, self.problem.robot);
         self.problem.has_references || stands_in.is_none_or(StandIn::may_be_of_tyres)
+    }
+
+    /// Whether one recording alone shows an effect that is always there, and the others do not show it though they have it: then none of them
+    /// can confirm it.
+    pub(crate) fn shows_once(&self, trial: &Trial, part: usize) -> bool {
+        let p = self.problem;
+        let variant = &trial.hypothesis.parts[part].0;
+        if variant.begins() || variant.place == Place::Disc {
+            return false;
+        }
+        let sized = |point: &Point, share: f64| {
+            let mut point = point.clone();
+            let before: usize = trial.hypothesis.variants().take(part).map(Variant::count).sum();
+            let own = variant.strengths().len();
+            point.effects[before..before + own].iter_mut().for_each(|size| *size *= share);
+            point
+        };
+        let whole = &trial.fitted.point;
+        let cost = |point: &Point, run: usize| -> f64 {
+            let response = p.run_response(run, point, &trial.hypothesis);
+            response.iter().enumerate().map(|(s, y)| p.segment_cost(run, s, p.q(run, s, y))).sum()
+        };
+        let (with, without) = (sized(whole, 1.0), sized(whole, 0.0));
+        let shows = |run: &usize| cost(&without, *run) - cost(&with, *run) > RULES.shows;
+        let shown: Vec<usize> = (0..p.cuts.len()).filter(shows).collect();
+        let [run] = shown[..] else { return false };
+
+        let others = (0..p.cuts.len()).filter(|other| *other != run);
+        let of_others = |point: &Point| others.clone().map(|other| cost(point, other)).sum::<f64>();
+        (of_others(&without) - of_others(&with)).abs() < RULES.shows
     }
 
     /// The fit of what is left of a hypothesis: one that was weighed, or a new one.
@@ -161,7 +191,7 @@ mod tests {
     use super::*;
     use crate::testing::{Asked, cutting, driven, problem};
     use crate::windows::{Cut, cut};
-    use inference::hypothesis::{Place, variants};
+    use inference::hypothesis::variants;
     use testing::robot;
 
     #[test]

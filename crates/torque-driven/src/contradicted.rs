@@ -14,6 +14,10 @@ impl Judged<'_> {
     pub(crate) fn with_what_forecasts_better(&self) -> Decision {
         let mut out = self.decision.clone();
         let Some(best) = self.winner().filter(|_| self.problem.cuts.len() > 1) else { return out };
+        // Where one recording alone shows all of it, the others cannot forecast it.
+        if (0..best.trial.hypothesis.parts.len()).all(|part| self.shows_once(&best.trial, part)) {
+            return out;
+        }
         let Some(other) = placebo(self) else { return out };
         let segments: Vec<usize> = self.problem.cuts.iter().map(|cut| cut.segments.len()).collect();
         let more = left_out_costs(self, &best.trial).into_iter().zip(left_out_costs(self, &other.trial));

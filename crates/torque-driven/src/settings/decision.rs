@@ -99,6 +99,8 @@
     confirmation: Confirmation {
         /// Standard errors by which they have to be forecast better with it.
         errors: f64 = 2.0, "1", "definition: what 95 of 100 normal errors do not reach";
+        /// Cost without an effect beyond that with it, from which on a recording shows it.
+        shows: f64 = 2.0, "nats", "convention: Akaike's two";
         /// Sigmas from which on a constant that takes the effect's place is beyond belief.
         believable: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
         /// By how many times farther it must lie then than with the effect.
