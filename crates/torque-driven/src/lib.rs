@@ -9,7 +9,7 @@
 //! * `simulate`, `drives`, `hold`: free runs, eight segments side by side.
 //! * `visit`, `between_visits`, `moved_constants`: drives of one day, place and load, and how far constants move from one to
 //!   the next.
-//! * `calibrate`, `null_scores`: constants and noise from the references, and the null score of each
+//! * `calibrate`, `regimes`, `null_scores`: constants and noise from the references, and the null score of each
 //!   reference.
 //! * `screen`, `candidate`, `local`: which effects could explain the mismatch, by linearised free
 //!   runs.
