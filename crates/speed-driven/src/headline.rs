@@ -304,7 +304,7 @@ fn standing(all: &[Standstill]) -> Vec<String> {
     let is_light = s.straight.is_some_and(|straight| s.load < ANSWER.light * straight);
     let because = match (s.wheels, s.share) {
         _ if s.is_off => {
-            "the motors give no torque there: switched off (emergency stop, fuse, driver), or their currents are not measured"
+            "its motors give no torque: they are switched off (emergency stop, fuse, driver), or their currents are not measured"
         }
         (Some(_), _) => "something holds the wheels: an obstacle, a brake, or too little torque",
         (None, Some(_)) if is_light => {
