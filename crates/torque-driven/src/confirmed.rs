@@ -89,10 +89,10 @@ impl Judged<'_> {
             }
             // Nor is one that lies beyond belief where the effect leaves it near: any, or the one that is the effect under another name.
             let both = [&without, &best.trial];
-            let is_beyond = |[far, near]: [f64; 2]| far > RULES.believable && far > RULES.nearer * near;
             let own = StandIn::of(&variant, self.problem.robot).filter(|constant| !constant.may_be_of_tyres());
             let of_own = own.map(|constant| both.map(|trial| moves(self.problem, &trial.fitted)[constant.place]));
-            if is_beyond(both.map(|trial| farthest(self.problem, &trial.fitted))) || of_own.is_some_and(is_beyond) {
+            let all = both.map(|trial| farthest(self.problem, &trial.fitted));
+            if is_beyond_belief(all) || of_own.is_some_and(is_beyond_belief) {
                 return None;
             }
             let without = left_out_costs(self, &without);
@@ -159,8 +159,13 @@ fn moves(problem: &Problem<'_>, fitted: &Fitted) -> Vec<f64> {
     fitted.point.theta.iter().zip(problem.centre).map(|(own, centre)| (own - centre).abs()).collect()
 }
 
+/// Whether a constant lies farther from where it is known to be than anybody believes, and with an effect near.
+fn is_beyond_belief([far, near]: [f64; 2]) -> bool {
+    far > RULES.believable && far > RULES.nearer * near
+}
+
 /// The same of the constant that lies farthest.
-fn farthest(problem: &Problem<'_>, fitted: &Fitted) -> f64 {
+pub(crate) fn farthest(problem: &Problem<'_>, fitted: &Fitted) -> f64 {
     moves(problem, fitted).into_iter().fold(0.0, f64::max)
 }
 

@@ -298,7 +298,7 @@ impl Calibrated {
         decision: &Decision,
         retuned: &Fitted,
     ) -> Decision {
-        let decision = self.judged(case, options, sensors, made_of, decision).without_sizes_of_zero();
+        let decision = self.judged(case, options, sensors, made_of, decision).without_sizes_of_zero(retuned);
         let decision = self.judged(case, options, sensors, made_of, &decision).without_unconfirmed(retuned);
         let decision = self.judged(case, options, sensors, made_of, &decision).with_either_side();
         self.judged(case, options, sensors, made_of, &decision).with_what_forecasts_better()

@@ -2,8 +2,9 @@
 
 use crate::calibrate::Calibration;
 use crate::case::Case;
+use crate::confirmed::farthest;
 use crate::decision::{Decision, Scored};
-use crate::fit::{Hypothesis, Problem};
+use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::redundancy::Redundant;
 use crate::refits;
 use crate::settings::decision::SETTINGS;
@@ -41,7 +42,7 @@ impl Judged<'_> {
 
     /// The decision in which no effect stands whose 90 % interval holds no effect at all: what it gains is that of constants that
     /// may have moved, so that its probability is that of the hypothesis without it; alone, of "nothing is missing".
-    pub(crate) fn without_sizes_of_zero(&self) -> Decision {
+    pub(crate) fn without_sizes_of_zero(&self, retuned: &Fitted) -> Decision {
         let mut out = self.decision.clone();
         let mut longest_first: Vec<usize> = (0..out.scored.len()).collect();
         longest_first.sort_by_key(|&i| Reverse(out.scored[i].trial.hypothesis.parts.len()));
@@ -55,6 +56,12 @@ impl Judged<'_> {
             let stands = parts.filter(|(part, _)| !self.may_be_zero(&s, *part)).map(|(_, part)| part.clone());
             let rest = Hypothesis { parts: stands.collect(), ..s.trial.hypothesis.clone() };
             if rest.parts.len() == s.trial.hypothesis.parts.len() {
+                continue;
+            }
+            // Nothing is no alternative where it asks a constant for more than what an effect would be named for, and more than this one
+            // does: the interval is as wide as that because that constant may stand for it.
+            let [far, near] = [retuned, &s.trial.fitted].map(|fitted| farthest(self.problem, fitted));
+            if rest.parts.is_empty() && far > SETTINGS.prices.named_from && near < far {
                 continue;
             }
 
@@ -124,7 +131,24 @@ mod tests {
 
     fn told(p: &Problem<'_>, scored: Vec<Scored>, none: f64) -> Decision {
         let decision = Decision { scored, none, ..Decision::default() };
-        Asked::new(p, decision).judged().without_sizes_of_zero()
+        Asked::new(p, decision).judged().without_sizes_of_zero(&p.begin(&Hypothesis::default(), p.origin(), None))
+    }
+
+    #[test]
+    fn nothing_takes_over_no_effect_where_it_asks_a_constant_for_more_than_anybody_believes() {
+        let (robot, viscous) = (robot(), of("viscous_friction"));
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let none_at = |sigmas: f64| {
+            let mut point = p.origin();
+            point.theta[0] = p.centre[0] + sigmas;
+            let retuned = p.begin(&Hypothesis::default(), point, None);
+            let scored = vec![scored(&p, &[(viscous, 1e-6)], 0.4)];
+            let decision = Decision { scored, none: 0.6, ..Decision::default() };
+            Asked::new(&p, decision).judged().without_sizes_of_zero(&retuned).none
+        };
+        approx::assert_relative_eq!(none_at(3.0), 1.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(none_at(5.0), 0.6, epsilon = 1e-12);
     }
 
     #[test]

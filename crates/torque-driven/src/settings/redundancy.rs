@@ -34,14 +34,20 @@
         span: f64 = 0.4, "s", "guess";
         /// Slowest wheel that counts.
         slowest: f64 = 1.5, "rad/s", "guess";
-        /// Most turning per driving that is straight.
-        straight: f64 = 0.5, "rad/m", "guess";
+        /// Most turning per driving of a bend in which wheels still roll.
+        bend: f64 = 1.5, "rad/m", "guess; a circle of two thirds of a metre";
         /// Error of the wheel radius in a robot file, one sigma, where no references show it.
         usual: f64 = 0.05, "share", "guess; tyres under load, and what they slip";
         /// Share of the size that matters up to which the other side may be off then.
         other: f64 = 0.5, "1", "guess";
         /// Fewest stretches of driving and of braking.
         fewest: usize = 4, "1", "guess";
+        /// Slip of driving wheels where a drive hardly ever brakes, one sigma.
+        slip: f64 = 0.03, "share", "guess; hard ground, far from what tyres hold";
+        /// The size of which scales of drives have the usual spread of runs as a share, beside references.
+        differ: f64 = 0.15, "share", "guess; slip differs from drive to drive by some per cent";
+        /// Sigmas from which on a stretch is far off.
+        far: f64 = 3.0, "1", "guess; a wheel that spins for a moment";
     }
 
     /// The accelerometer against the pose.
