@@ -120,6 +120,29 @@ impl Part for DrivePart<'_> {
         }
     }
 
+    fn law_error(&self, model: &Model<Law>) -> f64 {
+        if self.is_inexact(model) { SETTINGS.answer.law_error } else { 0.0 }
+    }
+
+    /// What wheels reach in the end, whatever their lag is.
+    fn levels(&self) -> &'static [usize] {
+        const { &[GAIN[0], GAIN[1], TURN_LIMIT, FORWARD_LIMIT, WHEEL_LIMIT] }
+    }
+
+    fn settled(&self, model: &Model<Law>) -> Vec<bool> {
+        let span = (SETTINGS.answer.settles / STEP).round() as usize;
+        let wheels = self.wheels(model.law, &model.x);
+        let mut out = Vec::with_capacity(self.windows.list.len() * WINDOW * 2);
+        for w in &self.windows.list {
+            for i in w.start..w.start + WINDOW {
+                let [before, now] = [i.saturating_sub(span), i].map(|row| wheels[w.piece][row]);
+                let changes = (0..2).map(|s| (now[s] - before[s]).abs()).fold(0.0, f64::max);
+                out.extend([i >= span && changes < SETTINGS.answer.settled * self.unit; 2]);
+            }
+        }
+        out
+    }
+
     /// Wheels that answer at once show between which rows they do, and no more.
     fn flat_over(&self, model: &Model<Law>, constant: usize) -> Option<f64> {
         (constant == DEAD_TIME && !model.law.second_order && model.x[LAG] < STEP).then_some(STEP)

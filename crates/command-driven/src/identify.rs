@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 use verdict::{Alternative, Element, Scaling};
 
-use crate::controller::{DEAD_TIME, Law};
+use crate::controller::{DAMPING, DEAD_TIME, FREQUENCY, LAG, Law};
 use crate::drive::DrivePart;
 use crate::ground::{self, GroundPart, TurnSlip};
+use crate::run::STEP;
 use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
 use crate::settings::SETTINGS;
 use crate::windows::Windows;
@@ -115,15 +116,21 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
     if side_ramps.level() < best.level() {
         best = side_ramps;
     }
-    let second = attempt(&part, base, Law { second_order: true, ..best.model.law }, &full, None);
+    let second_order = Law { second_order: true, ..best.model.law };
+    let usual = attempt(&part, base, second_order, &full, None);
+    // Beside dead times that only a lag of first order needs, the fit ends in another valley; of two that are as good, that with less of them.
+    let alike = attempt(&part, base, second_order, &full, Some(&with_two_lags(&best)));
+    let tied = 1.0 + SETTINGS.evidence.relevant;
+    let second = if alike.level() < tied * usual.level() { alike } else { usual };
     tried.push(("second-order lag".to_owned(), second.clone()));
     let mut other = second.clone();
     if evidence(windows, &best.loss, &second.loss).score > 0.0 {
         other = std::mem::replace(&mut best, second);
     }
     // A lag of second order begins slowly, as a dead time does.
+    let is_tied = other.level() < tied * best.level();
     let is_near = other.level() <= SETTINGS.answer.near * best.level() && part.is_inexact(&best.model);
-    let other_dead_time = (is_near && other.has(DeadTime)).then(|| other.model.x[DEAD_TIME]);
+    let other_order = (is_tied || is_near).then(|| [other.model.x[DEAD_TIME], time_of_lag(&other.model)]);
     let mut found = Weighed::new();
     for extra in [ForwardLimit, SideGain] {
         let more: Vec<Element> = best.elements.iter().copied().chain([extra]).collect();
@@ -136,7 +143,7 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
         }
     }
     let (mut kept, each) = prune(&part, base, best);
-    kept.other_dead_time = other_dead_time.filter(|_| kept.has(DeadTime));
+    kept.other_order = other_order.filter(|_| kept.has(DeadTime));
     let mut alternatives: Vec<Alternative> =
         tried.iter().map(|(what, t)| alternative(windows, what.clone(), &t.loss, &kept.loss)).collect();
     let without = |e: Element| format!("without {}", crate::element_words::element(e));
@@ -147,6 +154,22 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
     }));
     found.extend(each);
     Found { trial: kept, evidence: found, alternatives, scaling_is_told }
+}
+
+/// Where a lag of second order may be looked for beside one of first order: without its dead time, two equal lags that wait as long.
+fn with_two_lags(first: &Trial<Law>) -> Trial<Law> {
+    let mut out = first.clone();
+    let waits = out.model.x[DEAD_TIME] + time_of_lag(&first.model);
+    out.model.x[DEAD_TIME] = 0.0;
+    out.model.x[FREQUENCY] = 2.0 / waits.max(STEP);
+    out.model.x[DAMPING] = 1.0;
+    out.free.extend([FREQUENCY, DAMPING]);
+    out
+}
+
+/// By how much a lag is late, s: its time constant, or of one of second order 2 ζ / ω.
+fn time_of_lag(model: &Model<Law>) -> f64 {
+    if model.law.second_order { 2.0 * model.x[DAMPING] / model.x[FREQUENCY] } else { model.x[LAG] }
 }
 
 fn alternative(windows: &Windows, what: String, loss: &[f64], chosen: &[f64]) -> Alternative {

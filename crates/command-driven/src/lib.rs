@@ -10,6 +10,7 @@
 //! * `controller`, `drive`: from command to wheel, the law and its fit.
 //! * `ground`: from wheel to body: rolling radius, effective track, slip in turns, lag.
 //! * `search`, `identify`, `identified`: which elements improve forecasts of windows that were left out.
+//! * `known`: how well fitted constants are known.
 //! * `common`: one response for references and recordings, but for what has to differ.
 //! * `onset`: another response from an instant on inside recordings.
 //! * `compare`, `traces`: left-out windows forecast by four simulations, and drawn.
@@ -29,6 +30,7 @@ mod element_words;
 mod ground;
 mod identified;
 mod identify;
+mod known;
 mod left;
 mod model;
 mod moved;

@@ -6,10 +6,11 @@ use verdict::{Cause, Earned, Element, Estimate, Parameter, ResponseConstant, Spa
 use crate::controller::answers_apart;
 use crate::identified::Identified;
 use crate::identify::{Base, Identify};
+use crate::known::{open_range, settled, sigmas};
 use crate::left::Remains;
 use crate::moved::{Moved, is_another_centre};
 use crate::run::{ResponseRun, STEP};
-use crate::search::{Evidence, Part, Trial, open_range, sigmas};
+use crate::search::{Evidence, Part, Trial};
 use crate::settings::{Answer, SETTINGS};
 use crate::windows::Windows;
 use catalogue::answer::{NONE, UNKNOWN};
@@ -25,21 +26,32 @@ fn probability(e: &Evidence) -> f64 {
     logistic(e.score)
 }
 
-/// Name of the dead time.
+/// Sigmas beyond which a tenth of a normal distribution lies.
+const TENTH: f64 = 1.281_551_565_545;
+
+/// Names of the dead time and of the time constant of a lag.
 const DEAD_TIME_ID: &str = "dead_time";
+const LAG_ID: &str = "lag";
 
 /// Fitted constants of a part with their intervals.
 fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Parameter> {
     let sigmas = sigmas(part, t);
+    let settled = settled(part, t);
     let belongs = |k: usize| t.elements.iter().copied().find(|e| part.free(t.model.law, *e).contains(&k));
     let with_sigma = t.free.iter().zip(sigmas);
     with_sigma
         .filter_map(|(&k, sigma)| {
             let c: &ResponseConstant = &part.constants()[k];
             let (value, half) = told(part, t, k, sigma.map(|s| NINETY * s));
-            // Between what both laws say, with both inside the interval.
-            let apart = t.other_dead_time.filter(|_| c.id == DEAD_TIME_ID).map_or(0.0, |other| 0.5 * (other - value));
-            let (value, half) = (value + apart, half.map(|half| half.hypot(apart)));
+            // Between what both laws, or all rows and those of motions that have ended, say, with both inside the interval.
+            let other = t.other_order.and_then(|[dead_time, lag]| match c.id {
+                DEAD_TIME_ID => Some(dead_time),
+                LAG_ID => Some(lag),
+                _ => None,
+            });
+            let other = other.or_else(|| settled.iter().find(|(level, _)| *level == k).map(|(_, value)| *value));
+            let apart = other.map_or(0.0, |other| 0.5 * (other - value));
+            let (value, half) = (value + apart, half.map(|half| of_both(half, apart.abs())));
             Some(Parameter {
                 element: belongs(k)?,
                 id: c.id.into(),
@@ -53,10 +65,17 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
         .collect()
 }
 
+/// Half of the 90 % interval of two normal distributions, one as likely as the other, of this half width each and twice `apart` apart:
+/// far from each other it ends where a tenth of each lies beyond.
+fn of_both(half: f64, apart: f64) -> f64 {
+    half.hypot(apart).max(apart + TENTH / NINETY * half)
+}
+
 /// Value and half of the 90 % interval of a constant. What rows leave open is told by its middle, with the range over which
 /// the cost is as low: derivatives say nothing there, or say that nothing is known at all.
 fn told<P: Part>(part: &P, t: &Trial<P::Law>, k: usize, half: Option<f64>) -> (f64, Option<f64>) {
-    let between = NINETY * sigma_of_uniform(part.between_rows(k));
+    let of_law = NINETY * part.law_error(&t.model) * t.model.x[k];
+    let between = (NINETY * sigma_of_uniform(part.between_rows(k))).hypot(of_law);
     let Some(([from, until], reach)) = open_range(part, t, k).zip(part.flat_over(&t.model, k)) else {
         return (t.model.x[k], half.map(|half| half.hypot(between)));
     };
@@ -211,6 +230,10 @@ pub(crate) fn ranked(
             let later = by_how_much_later(spec, found, base, of.first().copied());
             cause.probability *= later.map_or(1.0, |size| matters(size, cause.sigma.unwrap_or(0.0)));
         }
+        let needless = found.drive.other_order.is_some_and(|[dead_time, _]| dead_time < ANSWER.least_delay);
+        if needless && spec.id == cause::DEAD_TIME.id {
+            cause.probability = cause.probability.min(ANSWER.needless);
+        }
         if let (true, [q, ..], Some(sigma)) = (spec.id == cause::TURN_CENTRE_OFFSET.id, of.as_slice(), cause.sigma) {
             cause.probability *= is_another_centre(q.value - q.simulated.unwrap_or(0.0), sigma, track);
         }
@@ -305,15 +328,20 @@ mod tests {
             all.into_iter().find(|p| p.id == DEAD_TIME_ID).expect("a dead time")
         };
         let (windows, mut trial) = identified(&Truth::stock());
-        assert_eq!(trial.other_dead_time, None, "the law is exact");
         let own = dead_time(&windows, &trial);
-        trial.other_dead_time = Some(own.value + 0.1);
+        let apart = trial.other_order.map_or(0.0, |[other, _]| other - own.value);
+        assert!(apart.abs() < 0.03, "the law is exact: {:?}", trial.other_order);
+        trial.other_order = None;
+        let own = dead_time(&windows, &trial);
+        trial.other_order = Some([own.value + 0.1, 0.1]);
         let both = dead_time(&windows, &trial);
         approx::assert_relative_eq!(both.value, own.value + 0.05, max_relative = 1e-9);
         assert!(both.half_width > Some(0.05) && both.half_width < Some(0.08), "{both:?}");
+        let half = own.half_width.expect("determined");
+        assert!(both.half_width >= Some(0.05 + TENTH / NINETY * half), "{both:?}");
         // Wheels that follow no law of the two.
         let swaying = Truth { wheel_push: |t, _| 0.3 * (1.3 * t).sin(), ..Truth::stock() };
-        assert!(identified(&swaying).1.other_dead_time.is_some());
+        assert!(identified(&swaying).1.other_order.is_some());
     }
 
     #[test]

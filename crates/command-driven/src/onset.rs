@@ -9,8 +9,9 @@ use inference::robust::NINETY_FALL;
 use verdict::Element;
 
 use crate::identify::{Found, Identify};
+use crate::known::sigmas;
 use crate::run::{STEP, WINDOW};
-use crate::search::{Began, Instant, Model, Part, Trial, evidence, fit, losses, sigmas};
+use crate::search::{Began, Instant, Model, Part, Trial, evidence, fit, losses};
 use crate::settings::{Onset, SETTINGS};
 use crate::windows::{FOLDS, Windows};
 

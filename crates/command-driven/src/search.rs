@@ -1,9 +1,7 @@
 //! Fits and left-out forecasts of one part of the response, and which elements earn their place.
 
-use faer::Mat;
-use inference::algebra::inverse_spd;
 use inference::least_squares::{Constant as FreeConstant, Loss, Residuals, Settings};
-use inference::robust::{NINETY_FALL, mean_with_error};
+use inference::robust::mean_with_error;
 use rayon::prelude::*;
 use verdict::{Element, ResponseConstant};
 
@@ -35,6 +33,21 @@ pub(crate) trait Part: Sync {
     fn between_rows(&self, _constant: usize) -> f64 {
         0.0
     }
+    /// One sigma by which a constant is another one because no robot follows the law quite, as a share.
+    fn law_error(&self, _model: &Model<Self::Law>) -> f64 {
+        0.0
+    }
+
+    /// Constants that say where a motion ends.
+    fn levels(&self) -> &'static [usize] {
+        &[]
+    }
+
+    /// Rows of the residuals in which a motion has ended.
+    fn settled(&self, _model: &Model<Self::Law>) -> Vec<bool> {
+        Vec::new()
+    }
+
     /// A constant in which the cost has several valleys, and where to start in it.
     fn starts(&self) -> (usize, &'static [f64]);
 }
@@ -57,8 +70,8 @@ pub(crate) struct Trial<L> {
     pub(crate) folds: Vec<Model<L>>,
     /// Left-out loss of each window (Huber).
     pub(crate) loss: Vec<f64>,
-    /// The dead time with a lag of the other order, s, where that forecasts nearly as well.
-    pub(crate) other_dead_time: Option<f64>,
+    /// Dead time and time constant of a lag of the other order, s, where that forecasts nearly as well.
+    pub(crate) other_order: Option<[f64; 2]>,
     /// What held before it, where it began inside recordings; it was then fitted to the windows since.
     pub(crate) began: Option<Box<Began<L>>>,
 }
@@ -261,7 +274,7 @@ pub(crate) fn attempt<P: Part>(
         .collect();
     let by_fold: Vec<Vec<f64>> = folds.par_iter().map(|m| losses(part, m)).collect();
     let loss = (0..windows.list.len()).map(|w| by_fold[windows.fold(w)][w]).collect();
-    Trial { elements: elements.to_vec(), free, model, folds, loss, other_dead_time: None, began: None }
+    Trial { elements: elements.to_vec(), free, model, folds, loss, other_order: None, began: None }
 }
 
 impl<L: Copy + PartialEq> Trial<L> {
@@ -322,58 +335,4 @@ pub(crate) fn prune<P: Part>(part: &P, base: &Model<P::Law>, full: Trial<P::Law>
             }
         }
     }
-}
-
-/// Range of a constant in which the cost stays as low as its 90 % profile interval asks, the others fitted anew: how far
-/// rows leave it open where its derivative does not say so. A window counts as one number.
-pub(crate) fn open_range<P: Part>(part: &P, t: &Trial<P::Law>, k: usize) -> Option<[f64; 2]> {
-    let reach = part.flat_over(&t.model, k)?;
-    let others: Vec<usize> = t.free.iter().copied().filter(|o| *o != k).collect();
-    let everything = vec![true; part.windows().list.len()];
-    let cost = |value: f64| {
-        let mut model = t.model.clone();
-        model.x[k] = value;
-        let fitted =
-            if others.is_empty() { model } else { fit(part, &model, &others, &everything, FIT.iterations_beside).0 };
-        losses(part, &fitted).iter().sum::<f64>()
-    };
-    let least = cost(t.model.x[k]);
-    let allowed = least * (1.0 + 2.0 * NINETY_FALL / part.windows().list.len().max(1) as f64);
-    let [lowest, largest] = part.constants()[k].bounds;
-    let end = |sign: f64| {
-        let at = |i: usize| (t.model.x[k] + sign * reach * i as f64 / FIT.profile as f64).clamp(lowest, largest);
-        (1..=FIT.profile).map(at).take_while(|v| cost(*v) <= allowed).last().unwrap_or(t.model.x[k])
-    };
-    Some([end(-1.0), end(1.0)])
-}
-
-/// One sigma of every free constant; `None` where the recordings do not determine them.
-pub(crate) fn sigmas<P: Part>(part: &P, t: &Trial<P::Law>) -> Vec<Option<f64>> {
-    let covariance = covariance(part, t);
-    (0..t.free.len()).map(|i| covariance.as_ref().map(|c| c[(i, i)].sqrt())).collect()
-}
-
-/// Covariance of the free constants: sandwich estimate with command steps as clusters (Liang and Zeger 1986), widened.
-pub(crate) fn covariance<P: Part>(part: &P, t: &Trial<P::Law>) -> Option<Mat<f64>> {
-    let windows = part.windows();
-    let r = part.residuals(t.model.law, &t.model.x);
-    let rows = r.len() / windows.list.len();
-    let columns = columns(part, &t.model, &t.free, &r);
-    // Beyond the unit the loss is linear and has no curvature.
-    let n = t.free.len();
-    let curved = Mat::from_fn(r.len(), n, |i, c| if r[i].abs() < 1.0 { columns[c][i] } else { 0.0 });
-    let inverse = inverse_spd(&(curved.transpose() * &curved))?;
-    let mut scores = Mat::<f64>::zeros(n, windows.blocks);
-    for (w, window) in windows.list.iter().enumerate() {
-        for i in w * rows..(w + 1) * rows {
-            for a in 0..n {
-                scores[(a, window.block)] += columns[a][i] * r[i].clamp(-1.0, 1.0);
-            }
-        }
-    }
-    let spread = &inverse * &scores;
-    let blocks = windows.blocks as f64;
-    let few = blocks / (blocks - n as f64).max(1.0);
-    let scale = SETTINGS.answer.wider * SETTINGS.answer.wider * few;
-    Some(&spread * spread.transpose() * faer::Scale(scale))
 }

@@ -10,8 +10,9 @@ use super::rivals::Rival;
 use crate::controller::free_run;
 use crate::drive::DrivePart;
 use crate::ground::{GroundPart, driven};
+use crate::known::covariance;
 use crate::run::{Piece, ResponseRun, STEP};
-use crate::search::{Part, Trial, columns, covariance};
+use crate::search::{Part, Trial, columns};
 use crate::settings::SETTINGS;
 use crate::windows::Windows;
 
