@@ -40,6 +40,11 @@ impl Estimate {
     pub fn is_moved(&self) -> bool {
         (self.value - self.given).abs() > self.half_width && self.sigmas.abs() > SETTINGS.naming.moved
     }
+
+    /// Whether an owner may believe it of a constant that was re-tuned: others are no rival of a cause, however well they forecast.
+    pub fn is_believable(&self) -> bool {
+        self.sigmas.abs() <= SETTINGS.naming.within[0]
+    }
 }
 
 /// When a cause begins, or ends.

@@ -201,7 +201,8 @@ impl Said {
             self.is_refuted = true;
             self.answer = Answer::Unknown;
         }
-        let is_confirmed = standing.over_nominal < naming.confirmed && standing.over_retuned < naming.worse;
+        let is_worse = standing.over_retuned >= naming.worse && self.retuned.iter().all(Estimate::is_believable);
+        let is_confirmed = standing.over_nominal < naming.confirmed && !is_worse;
         let is_shown = |cause: &NamedCause| shows(cause) && !cause.is_in_one_drive();
         if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(is_shown) {
             return false;
@@ -380,5 +381,25 @@ mod tests {
         assert_eq!(judged_with(began(true), true, [1.0, 2.0, 0.98], 0.08), Answer::Nothing, "drives after it do");
         assert_eq!(judged([1.0, 2.0, 1.3], 0.08), Answer::Unknown, "far worse than as stated");
         assert_eq!(judged([1.0, 2.0, 1.3], 0.04), Answer::Nothing, "the same where it leaves hardly anything");
+    }
+
+    #[test]
+    fn re_tuned_constants_that_no_owner_would_believe_take_nothing_back() {
+        let is_taken_back = |sigmas: f64| {
+            let mut said = named([1.0, 0.09, 0.08]);
+            let (name, unit) = ("steering zero".to_owned(), "rad");
+            said.retuned.push(Estimate { name, unit, given: 0.0, value: 0.05, half_width: 0.002, sigmas });
+            let free_run = FreeRun {
+                recording: "a".to_owned(),
+                quantity: "position, m".to_owned(),
+                nominal: 2.0,
+                retuned: 1.0,
+                corrected: 1.3,
+                placebo: None,
+            };
+            let rules = Unexplained { share: 0.05, of_retuned: 1.5, most: 0.4, doubted: 0.04 };
+            said.judge(&[free_run], rules, |_| true, |_| true)
+        };
+        assert_eq!([2.0, -5.2].map(is_taken_back), [true, false]);
     }
 }

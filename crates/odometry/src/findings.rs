@@ -79,10 +79,10 @@ impl Findings {
             out.named.iter().filter(|c| *c.spec != LOST_COUNTS).map(|c| c.label.clone()).collect();
         let standing = Standing::new(&table.free_runs()).filter(|_| out.answer == Answer::Named && !labels.is_empty());
         let Some(standing) = standing else { return out };
+        let is_worse = standing.over_retuned > rules.worse && out.retuned.iter().all(Estimate::is_believable);
         if leaves_most && standing.over_nominal > rules.refuted {
             out.take_back();
-        } else if (standing.over_nominal > confirmed || standing.over_retuned > rules.worse)
-            && !out.named.iter().any(NamedCause::is_in_one_drive)
+        } else if (standing.over_nominal > confirmed || is_worse) && !out.named.iter().any(NamedCause::is_in_one_drive)
         {
             out.take_back();
             out.unconfirmed = Some(Unconfirmed { labels, standing });
@@ -128,9 +128,14 @@ impl Findings {
     }
 }
 
-/// Whether several slips below zero are named: a body that gets ahead of its wheels by one law and falls behind by another has neither.
+/// Whether several slips below zero are named: a body that gets ahead of its wheels by one law and falls behind by another has neither. Of
+/// a slip below zero each further number of its law that clearly is counts, too.
 pub(crate) fn is_nothing_that_slips(named: &[NamedCause]) -> bool {
-    named.iter().filter(|cause| gains(cause)).count() > 1
+    let below = |cause: &NamedCause| {
+        let further = cause.estimates.iter().skip(1).filter(|e| e.value + e.half_width < 0.0);
+        1 + further.count()
+    };
+    named.iter().filter(|cause| gains(cause)).map(below).sum::<usize>() > 1
 }
 
 #[cfg(test)]
@@ -161,5 +166,12 @@ mod tests {
             |speed, turning| [of(&SLIP_WITH_SPEED, speed), of(&SLIP_WITH_TURNING, turning), of(&SLIP_IN_TURNS, 0.1)];
         assert!(is_nothing_that_slips(&named(-0.1, -0.2)));
         assert!(!is_nothing_that_slips(&named(-0.1, 0.2)));
+
+        let mut own = of(&SLIP_WITH_SPEED, -0.1);
+        for (value, is_nothing) in [(0.1, false), (-0.005, false), (-0.1, true)] {
+            own.estimates.truncate(1);
+            own.estimates.push(Estimate { value, ..own.estimates[0].clone() });
+            assert_eq!(is_nothing_that_slips(std::slice::from_ref(&own)), is_nothing, "{value}");
+        }
     }
 }

@@ -98,7 +98,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
     );
     add(
         Q::Play,
-        "play of the steering",
+        "half of the play of the steering",
         "rad",
         false,
         none(known.play),

@@ -46,7 +46,7 @@ fn told_as(name: &str) -> &str {
         "delay" => "dead time of the steering",
         "lag" => "time constant of the steering",
         "rate" => "time of the steering for a radian",
-        "play" => "play of the steering",
+        "play" => "half of the play of the steering",
         "front_compliance" => "compliance of the front tyres",
         "rear_compliance" => "compliance of the rear tyres",
         "drive" => "acceleration at full throttle",
