@@ -1,5 +1,7 @@
 //! Terms and laws.
 
+use std::collections::BTreeMap;
+
 use scalar::{Scalar, real};
 use serde::{Deserialize, Serialize};
 
@@ -117,6 +119,17 @@ impl Law {
         self.seen.sort_by_key(|(v, _)| v.symbol());
         self.seen.dedup_by_key(|(v, _)| *v);
         self
+    }
+
+    /// A law as verdicts hold it: its formula, and the ranges in which its variables were seen, by their symbols.
+    ///
+    /// # Errors
+    /// What is wrong with the formula.
+    pub fn of_formula(formula: &str, seen: &BTreeMap<String, [f64; 2]>) -> Result<Self, LawError> {
+        let law: Self = formula.parse()?;
+        let seen: Vec<(Variable, [f64; 2])> =
+            law.variables().into_iter().filter_map(|v| Some((v, *seen.get(v.symbol())?))).collect();
+        Ok(law.seen_within(&seen))
     }
 
     /// Its terms.

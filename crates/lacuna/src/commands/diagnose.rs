@@ -185,7 +185,11 @@ pub(crate) struct Args {
 fn effect(id: &str) -> Result<&'static str, String> {
     let all = robot_model::effects::catalogue::<f64>();
     let found = all.iter().map(|e| e.spec().id).find(|known| *known == id);
-    found.ok_or_else(|| format!("no effect is called '{id}'; `lacuna effects` lists them"))
+    found.ok_or_else(|| {
+        format!(
+            "no effect of torque-driven robots is called '{id}', and no other cause can be left out; `lacuna effects` lists them"
+        )
+    })
 }
 
 /// When a law is looked for.

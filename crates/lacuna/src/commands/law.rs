@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use case_files::envelope::Envelope;
 use clap::Args as ClapArgs;
-use law::{Law, Variable};
+use law::Law;
 use serde::Serialize;
 use verdict::{CommonLaw, FoundLaw, LawNumber, UnnamedCause};
 
@@ -65,7 +65,8 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let verdict = args.verdict.to_string_lossy().into_owned();
     let cause = envelope.diagnosis.law.as_ref();
     let found = if args.in_every_drive { common(cause, &verdict)? } else { of_what_differs(cause, &verdict)? };
-    let law = checked(found.formula, found.seen).with_context(|| format!("the law in '{verdict}' cannot be used"))?;
+    let law =
+        Law::of_formula(found.formula, found.seen).with_context(|| format!("the law in '{verdict}' cannot be used"))?;
     emit(&format!("{law}\n"))?;
     if let Some(target) = &args.save {
         let card =
@@ -126,12 +127,4 @@ fn name_of(file: &Path) -> String {
     let plain = |c: char| if c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' { c } else { '-' };
     let name: String = stem.chars().map(plain).collect();
     if name.starts_with(|c: char| c.is_ascii_lowercase()) { name } else { format!("law-{name}") }
-}
-
-/// The law with the ranges in which it was seen.
-fn checked(formula: &str, seen: &BTreeMap<String, [f64; 2]>) -> Result<Law> {
-    let law: Law = formula.parse()?;
-    let seen: Vec<(Variable, [f64; 2])> =
-        law.variables().into_iter().filter_map(|v| seen.get(v.symbol()).map(|range| (v, *range))).collect();
-    Ok(law.seen_within(&seen))
 }

@@ -6,6 +6,7 @@
 //! drawn robot with another outsider --> diagnosis                                  --> place, law, or nothing
 //! drawn robot with a foreign law   --> diagnosis                                  --> law, place, or nothing
 //! drawn robot that lacks nothing   --> diagnosis                                  --> nothing, or a false law
+//! foreign law in every drive       --> diagnosis                                  --> law that is adopted, further drives
 //! ```
 //!
 //! With `--peers` other methods get the same residual series, and all predict a recording that was left out.
@@ -15,7 +16,7 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use case_files::case_folder::{self, CaseFolder};
 use clap::Args as ClapArgs;
-use examiner::{Content, LawKind, Mix, Outsider, Plan, Settings};
+use examiner::{Content, DrawnCase, LawKind, Mix, Outsider, Plan, Settings};
 use harness::child::processor_of_this;
 use inference::{Options, SearchForLaw};
 use rayon::prelude::*;
@@ -25,12 +26,14 @@ use verdict::Claim;
 use crate::document::to_text;
 use crate::output;
 
+mod adopted;
 mod events;
 mod foreign;
 mod judge;
 mod peers;
 mod tables;
 
+use adopted::Adopted;
 use judge::{Judged, judged};
 use peers::{Compared, Python};
 
@@ -53,6 +56,10 @@ pub(crate) struct Args {
     /// Number of robots with a law of another grammar, which the search does not hold as it stands, all kinds in turn.
     #[arg(long, default_value_t = 20)]
     foreign: usize,
+    /// Number of robots with such a law in every drive, all kinds in turn: what is told as lacking in every drive is adopted, and further
+    /// drives are forecast without it and with it.
+    #[arg(long, default_value_t = 10)]
+    in_every_drive: usize,
     /// References of each robot; with none, a law is told only where the answer is that the cause is not in the catalogue.
     #[arg(long, value_name = "NUMBER", default_value_t = Settings::default().references)]
     references: usize,
@@ -86,9 +93,18 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
         .extend(examiner::set(args.seed + 2, args.events, outside, &settings).into_iter().enumerate().map(with_events));
     plans.extend(examiner::set(args.seed + 3, args.outside, outside, &settings));
     plans.extend(examiner::set(args.seed + 4, args.foreign, outside, &settings).into_iter().enumerate().map(with_law));
-    ensure!(!plans.is_empty(), "nothing is to be drawn; give --count, --events, --outside, --foreign or --fault-free");
+    let alike = Settings { references: 0, recordings: Some(adopted::DRIVES), ..Settings::default() };
+    let in_every_drive: Vec<Plan> = examiner::set(args.seed + 5, args.in_every_drive, outside, &alike)
+        .into_iter()
+        .enumerate()
+        .map(with_law)
+        .collect();
+    ensure!(
+        !(plans.is_empty() && in_every_drive.is_empty()),
+        "nothing is to be drawn; give --count, --events, --outside, --foreign, --in-every-drive or --fault-free"
+    );
 
-    let bar = output::progress(plans.len() as u64, "robots")?;
+    let bar = output::progress((plans.len() + in_every_drive.len()) as u64, "robots")?;
     let one = |(i, plan): (usize, &Plan)| {
         let own = folder.join(format!("{i:03}"));
         let out = case(plan, &own, &args.only, python.as_ref()).with_context(|| format!("case {i}"));
@@ -97,29 +113,43 @@ pub(crate) fn run(args: &Args) -> Result<bool> {
     };
     let began = processor_of_this();
     let tried: Vec<Result<Option<Judged>>> = plans.par_iter().enumerate().map(one).collect();
-    bar.finish_and_clear();
     let spent = processor_of_this().zip(began).map(|(now, then)| now - then);
+    let lacking = |(i, plan): (usize, &Plan)| {
+        let out = adopted::case(plan, &folder.join(format!("every-{i:03}")));
+        bar.inc(1);
+        out.with_context(|| format!("case {i} with a law in every drive"))
+    };
+    let lacking: Vec<Result<Adopted>> = in_every_drive.par_iter().enumerate().map(lacking).collect();
+    bar.finish_and_clear();
     let mut failed = 0;
-    let mut kept = Vec::new();
-    for outcome in tried {
-        match outcome {
-            Ok(found) => kept.extend(found),
-            Err(error) => {
-                failed += 1;
-                eprintln!("{error:#}");
-            }
-        }
-    }
+    let kept: Vec<Judged> = succeeded(tried, &mut failed).into_iter().flatten().collect();
+    let adopted = succeeded(lacking, &mut failed);
 
     let compared: Vec<&Compared> = kept.iter().filter_map(|j| j.peers.as_ref()).collect();
     let mut figures = tables::figures(&kept);
+    figures.extend(tables::of_adopted(&adopted));
     let mut sections = tables::all(&kept, &figures);
+    sections.extend(tables::adopted(&adopted));
     sections.extend(peers::tables(&compared, spent.map(|s| s / kept.len().max(1) as f64)));
     figures.extend(peers::figures(&compared));
     output::write(&folder, "summary.json", &serde_json::to_string_pretty(&figures)?)?;
     output::write(&folder, "cases.json", &serde_json::to_string_pretty(&kept)?)?;
+    output::write(&folder, "adopted.json", &serde_json::to_string_pretty(&adopted)?)?;
     println!("{}", to_text(&sections));
     Ok(failed == 0 && figures.iter().all(|f| f.pass != Some(false)))
+}
+
+/// What did not fail; the others are told and counted.
+fn succeeded<T>(tried: Vec<Result<T>>, failed: &mut usize) -> Vec<T> {
+    let told = tried.into_iter().filter_map(|outcome| match outcome {
+        Ok(found) => Some(found),
+        Err(error) => {
+            *failed += 1;
+            eprintln!("{error:#}");
+            None
+        }
+    });
+    told.collect()
 }
 
 /// The plan with short events as what is hidden, their kinds in turn.
@@ -146,12 +176,7 @@ fn case(plan: &Plan, folder: &Path, only: &[String], python: Option<&Python>) ->
     if !is_asked {
         return Ok(None);
     }
-    if folder.exists() {
-        std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
-    }
-    drawn.write(folder)?;
-    let mapping = case_folder::mapping("skid-steer-columns")?;
-    let case = CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()?;
+    let case = written(&drawn, folder)?;
     let all = robot_model::effects::catalogue::<f64>();
     let without = id.and_then(|id| all.iter().map(|e| e.spec().id).find(|known| *known == id));
     let options = Options { without, law: SearchForLaw::Always, ..Options::default() };
@@ -166,6 +191,28 @@ fn case(plan: &Plan, folder: &Path, only: &[String], python: Option<&Python>) ->
     if let Some(python) = python {
         judged.peers = Some(peers::compare(python, folder, (&drawn, &case), &options, (&diagnosis, &judged))?);
     }
-    std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))?;
+    removed(folder)?;
     Ok(Some(judged))
+}
+
+/// A robot that is drawn, and its case.
+fn opened(plan: &Plan, folder: &Path) -> Result<(DrawnCase, torque_driven::Case)> {
+    let drawn = plan.draw()?;
+    let case = written(&drawn, folder)?;
+    removed(folder)?;
+    Ok((drawn, case))
+}
+
+/// The case as its files say it.
+fn written(drawn: &DrawnCase, folder: &Path) -> Result<torque_driven::Case> {
+    if folder.exists() {
+        removed(folder)?;
+    }
+    drawn.write(folder)?;
+    let mapping = case_folder::mapping("skid-steer-columns")?;
+    CaseFolder::open(folder, None, &mapping, &ReadOptions::default())?.torque_driven()
+}
+
+fn removed(folder: &Path) -> Result<()> {
+    std::fs::remove_dir_all(folder).with_context(|| format!("cannot remove '{}'", folder.display()))
 }

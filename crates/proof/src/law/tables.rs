@@ -3,6 +3,7 @@
 use inference::robust::median;
 use verdict::Claim;
 
+use super::adopted::Adopted;
 use super::events::EventScore;
 use super::judge::Judged;
 use crate::blind::Rate;
@@ -22,6 +23,10 @@ const OVER_NAME: f64 = 0.1;
 const ALIKE: f64 = 0.1;
 const CURVES: f64 = 0.3;
 const WRONG_FOREIGN: f64 = 0.03;
+
+/// Of laws that every drive has, once adopted.
+const FALLS: f64 = 0.8;
+const RISES: f64 = 0.02;
 
 const SIDE_OF_EVENTS: f64 = 0.95;
 const RECALL: f64 = 0.6;
@@ -138,6 +143,38 @@ fn of_foreign(all: &[Judged]) -> Vec<Figure> {
             .asked(Asked::AtMost(WRONG_FOREIGN)),
     );
     out
+}
+
+/// What adopted laws are worth; nothing where none was drawn.
+pub(super) fn of_adopted(all: &[Adopted]) -> Vec<Figure> {
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let of = |name: &str, rate: Rate| Figure::free(name, share(rate), "");
+    let told = || all.iter().filter(|a| a.told.is_some());
+    vec![
+        Figure::free("robots with a law of another grammar in every drive", all.len() as f64, ""),
+        of("a law is told to be lacking in every drive", all.iter().map(|a| a.told.is_some()).collect()),
+        of("further drives are forecast better with it", told().map(Adopted::falls).collect())
+            .asked(Asked::AtLeast(FALLS)),
+        of("further drives are forecast worse with it", told().map(Adopted::rises).collect())
+            .asked(Asked::AtMost(RISES)),
+    ]
+}
+
+/// The same by robot.
+pub(super) fn adopted(all: &[Adopted]) -> Option<Section> {
+    let note = "Error of the re-tuned simulation in further drives, with the law over without it.";
+    let mut out = Section::new("In every drive", note, &["hidden", "told place", "formula", "wheel speed", "yaw rate"]);
+    out.rows = all
+        .iter()
+        .map(|a| {
+            let [place, formula] = a.told.clone().unwrap_or_default();
+            let [wheel, yaw] = a.over_before.map_or_else(Default::default, |shares| shares.map(|s| format!("{s:.3}")));
+            [a.hidden.clone(), place, formula, wheel, yaw].map(Into::into).to_vec()
+        })
+        .collect();
+    (!out.rows.is_empty()).then_some(out)
 }
 
 /// Tables for people.
