@@ -49,8 +49,9 @@ pub fn where_and_when(c: &Cause) -> String {
         let more = if more > 0 { format!(" and {more} more") } else { String::new() };
         parts.push(spans[..spans.len().min(INTERVALS)].join(", ") + &more);
     }
-    if c.is_at_bound() {
-        parts.push("a number is at its bound".to_owned());
+    let at_bounds: Vec<String> = c.at_bounds().map(|(name, value)| format!("{name} = {}", number(value))).collect();
+    if !at_bounds.is_empty() {
+        parts.push(format!("at the end of its range: {}", at_bounds.join(", ")));
     }
     parts.join("; ")
 }

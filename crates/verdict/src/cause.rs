@@ -43,9 +43,9 @@ pub struct Estimate {
 }
 
 impl Cause {
-    /// Whether any number of it stopped at its bound.
-    pub fn is_at_bound(&self) -> bool {
-        self.parameters.values().any(|p| p.at_bound)
+    /// Its numbers that stopped at the end of their range: name and that end.
+    pub fn at_bounds(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.parameters.iter().filter(|(_, p)| p.at_bound).map(|(name, p)| (name.as_str(), p.value))
     }
 
     /// A cause of which only the probability is known.
@@ -70,12 +70,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cause_is_at_its_bound_as_soon_as_one_of_its_numbers_is() {
+    fn only_numbers_that_stopped_at_the_end_of_their_range_are_told_as_such() {
         let mut cause = Cause::plain("grade", "slope", 0.8);
-        assert!(!cause.is_at_bound());
-        for (name, at_bound, whole) in [("angle", false, false), ("heading", true, true), ("onset", false, true)] {
-            cause.parameters.insert(name.to_owned(), Estimate { value: 0.1, sigma: None, at_bound });
-            assert_eq!(cause.is_at_bound(), whole, "{name}");
+        for (name, value, at_bound) in [("angle", 0.1, false), ("heading", 3.1, true), ("onset", 2.0, false)] {
+            cause.parameters.insert(name.to_owned(), Estimate { value, sigma: None, at_bound });
         }
+        assert_eq!(cause.at_bounds().collect::<Vec<_>>(), [("heading", 3.1)]);
     }
 }
