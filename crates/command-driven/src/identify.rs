@@ -7,7 +7,7 @@ use crate::controller::{DAMPING, DEAD_TIME, FREQUENCY, LAG, Law};
 use crate::drive::DrivePart;
 use crate::ground::{self, GroundPart, TurnSlip};
 use crate::run::STEP;
-use crate::search::{Evidence, Model, Part, Trial, Weighed, attempt, evidence, prune};
+use crate::search::{Evidence, Model, OtherOrder, Part, Trial, Weighed, attempt, evidence, prune};
 use crate::settings::SETTINGS;
 use crate::windows::Windows;
 
@@ -128,9 +128,10 @@ fn drive(windows: &Windows, base: &Model<Law>) -> Found<Law> {
         other = std::mem::replace(&mut best, second);
     }
     // A lag of second order begins slowly, as a dead time does.
-    let is_tied = other.level() < tied * best.level();
+    let is_as_good = other.level() < tied * best.level();
     let is_near = other.level() <= SETTINGS.answer.near * best.level() && part.is_inexact(&best.model);
-    let other_order = (is_tied || is_near).then(|| [other.model.x[DEAD_TIME], time_of_lag(&other.model)]);
+    let (dead_time, lag) = (other.model.x[DEAD_TIME], time_of_lag(&other.model));
+    let other_order = (is_as_good || is_near).then_some(OtherOrder { dead_time, lag, is_as_good });
     let mut found = Weighed::new();
     for extra in [ForwardLimit, SideGain] {
         let more: Vec<Element> = best.elements.iter().copied().chain([extra]).collect();

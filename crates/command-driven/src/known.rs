@@ -86,3 +86,28 @@ pub(crate) fn covariance<P: Part>(part: &P, t: &Trial<P::Law>) -> Option<Mat<f64
     let scale = SETTINGS.answer.wider * SETTINGS.answer.wider * few;
     Some(&spread * spread.transpose() * faer::Scale(scale))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::controller::GAIN;
+    use crate::identify::{Identify, OfDrive, neutral};
+    use crate::testing::Truth;
+    use crate::windows::Windows;
+
+    #[test]
+    fn gains_are_those_of_motions_that_have_ended_whatever_the_law_says_of_the_way_there() {
+        let windows = Windows::new(&[Truth::stock().run("a", 30, 1), Truth::stock().run("b", 20, 2)]);
+        let mut trial = OfDrive.identify(&windows, &neutral(&windows).drive).trial;
+        let part = OfDrive.part(&windows);
+        assert!(trial.free.contains(&GAIN[0]), "{:?}", trial.free);
+        let fitted = trial.model.x[GAIN[0]];
+        trial.model.x[GAIN[0]] *= 0.97;
+        let told = settled(&part, &trial);
+        let (_, gain) = told.iter().find(|(k, _)| *k == GAIN[0]).expect("a gain");
+        approx::assert_relative_eq!(*gain, fitted, max_relative = 0.005);
+
+        trial.free.retain(|k| *k != GAIN[0]);
+        assert!(settled(&part, &trial).iter().all(|(k, _)| *k != GAIN[0]), "what is not free is not told");
+    }
+}

@@ -10,7 +10,7 @@ use crate::known::{open_range, settled, sigmas};
 use crate::left::Remains;
 use crate::moved::{Moved, is_another_centre};
 use crate::run::{ResponseRun, STEP};
-use crate::search::{Evidence, Part, Trial};
+use crate::search::{Evidence, OtherOrder, Part, Trial};
 use crate::settings::{Answer, SETTINGS};
 use crate::windows::Windows;
 use catalogue::answer::{NONE, UNKNOWN};
@@ -44,9 +44,9 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
             let c: &ResponseConstant = &part.constants()[k];
             let (value, half) = told(part, t, k, sigma.map(|s| NINETY * s));
             // Between what both laws, or all rows and those of motions that have ended, say, with both inside the interval.
-            let other = t.other_order.and_then(|[dead_time, lag]| match c.id {
-                DEAD_TIME_ID => Some(dead_time),
-                LAG_ID => Some(lag),
+            let other = t.other_order.and_then(|other| match c.id {
+                DEAD_TIME_ID => Some(other.dead_time),
+                LAG_ID => Some(other.lag),
                 _ => None,
             });
             let other = other.or_else(|| settled.iter().find(|(level, _)| *level == k).map(|(_, value)| *value));
@@ -230,9 +230,8 @@ pub(crate) fn ranked(
             let later = by_how_much_later(spec, found, base, of.first().copied());
             cause.probability *= later.map_or(1.0, |size| matters(size, cause.sigma.unwrap_or(0.0)));
         }
-        let needless = found.drive.other_order.is_some_and(|[dead_time, _]| dead_time < ANSWER.least_delay);
-        if needless && spec.id == cause::DEAD_TIME.id {
-            cause.probability = cause.probability.min(ANSWER.needless);
+        if spec.id == cause::DEAD_TIME.id {
+            cause.probability = cause.probability.min(surest_dead_time(found.drive.other_order));
         }
         if let (true, [q, ..], Some(sigma)) = (spec.id == cause::TURN_CENTRE_OFFSET.id, of.as_slice(), cause.sigma) {
             cause.probability *= is_another_centre(q.value - q.simulated.unwrap_or(0.0), sigma, track);
@@ -255,6 +254,12 @@ pub(crate) fn ranked(
     let sureness = |c: &Cause| c.probability.min(ANSWER.sure);
     out.sort_by(|a, b| leads(b).cmp(&leads(a)).then(sureness(b).total_cmp(&sureness(a))));
     out
+}
+
+/// Largest probability of a dead time: a lag of the other order may forecast as well without.
+fn surest_dead_time(other: Option<OtherOrder>) -> f64 {
+    let is_needless = other.is_some_and(|other| other.is_as_good && other.dead_time < ANSWER.least_delay);
+    if is_needless { ANSWER.needless } else { 1.0 }
 }
 
 /// By how much later wheels or body answer than is simulated, s; `None` where nothing was fitted. A longer dead time before a shorter lag
@@ -329,11 +334,12 @@ mod tests {
         };
         let (windows, mut trial) = identified(&Truth::stock());
         let own = dead_time(&windows, &trial);
-        let apart = trial.other_order.map_or(0.0, |[other, _]| other - own.value);
+        let apart = trial.other_order.map_or(0.0, |other| other.dead_time - own.value);
         assert!(apart.abs() < 0.03, "the law is exact: {:?}", trial.other_order);
         trial.other_order = None;
         let own = dead_time(&windows, &trial);
-        trial.other_order = Some([own.value + 0.1, 0.1]);
+        let other = OtherOrder { dead_time: own.value + 0.1, lag: 0.1, is_as_good: false };
+        trial.other_order = Some(other);
         let both = dead_time(&windows, &trial);
         approx::assert_relative_eq!(both.value, own.value + 0.05, max_relative = 1e-9);
         assert!(both.half_width > Some(0.05) && both.half_width < Some(0.08), "{both:?}");
@@ -342,6 +348,12 @@ mod tests {
         // Wheels that follow no law of the two.
         let swaying = Truth { wheel_push: |t, _| 0.3 * (1.3 * t).sin(), ..Truth::stock() };
         assert!(identified(&swaying).1.other_order.is_some());
+    }
+
+    #[test]
+    fn a_dead_time_that_a_lag_as_good_does_not_need_is_one_of_two_answers() {
+        let of = |dead_time, is_as_good| surest_dead_time(Some(OtherOrder { dead_time, lag: 0.3, is_as_good }));
+        assert_eq!([of(0.0, true), of(0.0, false), of(0.1, true), surest_dead_time(None)], [0.5, 1.0, 1.0, 1.0]);
     }
 
     #[test]

@@ -70,10 +70,20 @@ pub(crate) struct Trial<L> {
     pub(crate) folds: Vec<Model<L>>,
     /// Left-out loss of each window (Huber).
     pub(crate) loss: Vec<f64>,
-    /// Dead time and time constant of a lag of the other order, s, where that forecasts nearly as well.
-    pub(crate) other_order: Option<[f64; 2]>,
+    /// The answer with a lag of the other order, where that forecasts nearly as well.
+    pub(crate) other_order: Option<OtherOrder>,
     /// What held before it, where it began inside recordings; it was then fitted to the windows since.
     pub(crate) began: Option<Box<Began<L>>>,
+}
+
+/// What a lag of the other order says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OtherOrder {
+    /// Dead time, and by how much the lag is late, s.
+    pub(crate) dead_time: f64,
+    pub(crate) lag: f64,
+    /// Whether it forecasts as well.
+    pub(crate) is_as_good: bool,
 }
 
 /// What held before a response began.
