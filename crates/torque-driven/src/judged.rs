@@ -9,9 +9,11 @@ use crate::redundancy::Redundant;
 use crate::refits;
 use crate::settings::decision::SETTINGS;
 use crate::simulator::Simulator;
+use crate::stand_in::StandIn;
 use crate::visit::Visit;
 use crate::windows::Cut;
 use inference::Options;
+use inference::hypothesis::Variant;
 use inference::robust::NINETY;
 use robot_model::effects::{encoder_scale, wheel_radius_mismatch};
 use std::cmp::Reverse;
@@ -58,10 +60,12 @@ impl Judged<'_> {
             if rest.parts.len() == s.trial.hypothesis.parts.len() {
                 continue;
             }
-            // Nothing is no alternative where it asks a constant for more than what an effect would be named for, and more than this one
-            // does: the interval is as wide as that because that constant may stand for it.
+            // Nothing is no alternative to a constant under another name where it asks a constant for more than what an effect would be named
+            // for, and more than this one does: the interval is as wide as that because that constant may stand for it.
             let [far, near] = [retuned, &s.trial.fitted].map(|fitted| farthest(self.problem, fitted));
-            if rest.parts.is_empty() && far > SETTINGS.prices.named_from && near < far {
+            let is_constant = |v: &Variant| StandIn::of(v, self.problem.robot).is_some();
+            let is_beyond = far > SETTINGS.prices.named_from && near < far;
+            if rest.parts.is_empty() && is_beyond && s.trial.hypothesis.variants().all(is_constant) {
                 continue;
             }
 
@@ -111,7 +115,7 @@ mod tests {
     use crate::testing::{Asked, cutting, driven, problem};
     use crate::trial::Trial;
     use crate::windows::cut;
-    use inference::hypothesis::{Place, Variant};
+    use inference::hypothesis::Place;
     use testing::robot;
 
     /// An effect in all places.
@@ -139,16 +143,18 @@ mod tests {
         let (robot, viscous) = (robot(), of("viscous_friction"));
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let p = problem(&robot, &cuts);
-        let none_at = |sigmas: f64| {
+        let none_at = |effect: Variant, sigmas: f64| {
             let mut point = p.origin();
             point.theta[0] = p.centre[0] + sigmas;
             let retuned = p.begin(&Hypothesis::default(), point, None);
-            let scored = vec![scored(&p, &[(viscous, 1e-6)], 0.4)];
+            let scored = vec![scored(&p, &[(effect, 1e-6)], 0.4)];
             let decision = Decision { scored, none: 0.6, ..Decision::default() };
             Asked::new(&p, decision).judged().without_sizes_of_zero(&retuned).none
         };
-        approx::assert_relative_eq!(none_at(3.0), 1.0, epsilon = 1e-12);
-        approx::assert_relative_eq!(none_at(5.0), 0.6, epsilon = 1e-12);
+        approx::assert_relative_eq!(none_at(viscous, 3.0), 1.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(none_at(viscous, 5.0), 0.6, epsilon = 1e-12);
+        let of_no_constant = of("quadratic_drag");
+        approx::assert_relative_eq!(none_at(of_no_constant, 5.0), 1.0, epsilon = 1e-12);
     }
 
     #[test]
