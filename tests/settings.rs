@@ -28,7 +28,8 @@ const FORMULAS: [f64; 12] = [0.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 60.0, 180.0, 10
 const GUARD: f64 = 1e-6;
 
 /// File, literal, and why it is no setting.
-const NO_SETTINGS: [(&str, &str, &str); 17] = [
+const NO_SETTINGS: [(&str, &str, &str); 18] = [
+    ("inference/src/robust.rs", "1.282", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.645", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.96", "mathematics: a quantile of the normal distribution"),
     ("inference/src/robust.rs", "1.353", "mathematics: half a quantile of chi-squared"),

@@ -16,7 +16,7 @@ use crate::windows::Windows;
 use catalogue::answer::{NONE, UNKNOWN};
 use catalogue::{CauseSpec, command_driven as cause};
 use inference::evidence::{logistic, none_of};
-use inference::robust::{NINETY, normal_cdf};
+use inference::robust::{EIGHTY, NINETY, normal_cdf};
 
 pub(crate) fn earned((element, e): &(Element, Evidence)) -> Earned {
     Earned { element: *element, rise: e.rise, standard_error: e.standard_error, probability: probability(e) }
@@ -25,9 +25,6 @@ pub(crate) fn earned((element, e): &(Element, Evidence)) -> Earned {
 fn probability(e: &Evidence) -> f64 {
     logistic(e.score)
 }
-
-/// Sigmas beyond which a tenth of a normal distribution lies.
-const TENTH: f64 = 1.281_551_565_545;
 
 /// Names of the dead time and of the time constant of a lag.
 const DEAD_TIME_ID: &str = "dead_time";
@@ -68,7 +65,7 @@ fn parameters<P: Part>(part: &P, t: &Trial<P::Law>, simulated: &[f64]) -> Vec<Pa
 /// Half of the 90 % interval of two normal distributions, one as likely as the other, of this half width each and twice `apart` apart:
 /// far from each other it ends where a tenth of each lies beyond.
 fn of_both(half: f64, apart: f64) -> f64 {
-    half.hypot(apart).max(apart + TENTH / NINETY * half)
+    half.hypot(apart).max(apart + EIGHTY / NINETY * half)
 }
 
 /// Value and half of the 90 % interval of a constant. What rows leave open is told by its middle, with the range over which
@@ -344,7 +341,7 @@ mod tests {
         approx::assert_relative_eq!(both.value, own.value + 0.05, max_relative = 1e-9);
         assert!(both.half_width > Some(0.05) && both.half_width < Some(0.08), "{both:?}");
         let half = own.half_width.expect("determined");
-        assert!(both.half_width >= Some(0.05 + TENTH / NINETY * half), "{both:?}");
+        assert!(both.half_width >= Some(0.05 + EIGHTY / NINETY * half), "{both:?}");
         // Wheels that follow no law of the two.
         let swaying = Truth { wheel_push: |t, _| 0.3 * (1.3 * t).sin(), ..Truth::stock() };
         assert!(identified(&swaying).1.other_order.is_some());

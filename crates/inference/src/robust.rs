@@ -8,6 +8,8 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Sigmas within which 90 % of a normal distribution lie: `Φ⁻¹(0.95)`, as tables print it.
 pub const NINETY: f64 = 1.645;
+/// Sigmas within which 80 % of a normal distribution lie: `Φ⁻¹(0.9)`, as tables print it.
+pub const EIGHTY: f64 = 1.282;
 /// Sigmas within which 95 % of a normal distribution lie: `Φ⁻¹(0.975)`, as tables print it.
 pub const NINETY_FIVE: f64 = 1.96;
 /// Fall of a log-likelihood, nats, within which the 90 % profile interval of one number lies:
