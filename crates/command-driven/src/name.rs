@@ -344,7 +344,11 @@ mod tests {
         assert!(both.half_width >= Some(0.05 + EIGHTY / NINETY * half), "{both:?}");
         // Wheels that follow no law of the two.
         let swaying = Truth { wheel_push: |t, _| 0.3 * (1.3 * t).sin(), ..Truth::stock() };
-        assert!(identified(&swaying).1.other_order.is_some());
+        let (of_swaying, trial_of_swaying) = identified(&swaying);
+        assert!(trial_of_swaying.other_order.is_some());
+        let law_errors = [(&windows, &trial), (&of_swaying, &trial_of_swaying)]
+            .map(|(windows, trial)| OfDrive.part(windows).law_error(&trial.model));
+        assert_eq!(law_errors, [0.0, ANSWER.law_error]);
     }
 
     #[test]

@@ -135,7 +135,17 @@ pub(crate) fn verdict(d: &Diagnosis, most: usize) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::quantity_and_unit;
+    use super::{quantity_and_unit, where_and_when};
+    use verdict::{Cause, Estimate};
+
+    #[test]
+    fn a_number_at_the_end_of_its_range_is_told_by_name() {
+        let mut cause = Cause::plain("stiction", "stiction", 0.8);
+        for (name, value, at_bound) in [("Ts", 0.0, true), ("v", 0.1, false)] {
+            cause.parameters.insert(name.to_owned(), Estimate { value, sigma: None, at_bound });
+        }
+        assert_eq!(where_and_when(&cause), "at the end of its range: Ts = 0");
+    }
 
     #[test]
     fn units_are_told_from_names() {

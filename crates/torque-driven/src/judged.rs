@@ -60,8 +60,8 @@ impl Judged<'_> {
             if rest.parts.len() == s.trial.hypothesis.parts.len() {
                 continue;
             }
-            // Nothing is no alternative to a constant under another name where it asks a constant for more than what an effect would be named
-            // for, and more than this one does: the interval is as wide as that because that constant may stand for it.
+            // The interval of a constant under another name is wide where another constant may stand for it. Without the effect that one is
+            // then farther off than an effect would be named for, and farther than with it: nobody would believe that.
             let [far, near] = [retuned, &s.trial.fitted].map(|fitted| farthest(self.problem, fitted));
             let is_constant = |v: &Variant| StandIn::of(v, self.problem.robot).is_some();
             let is_beyond = far > SETTINGS.prices.named_from && near < far;
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_takes_over_no_effect_where_it_asks_a_constant_for_more_than_anybody_believes() {
+    fn an_effect_whose_absence_needs_a_constant_that_nobody_believes_keeps_its_probability() {
         let (robot, viscous) = (robot(), of("viscous_friction"));
         let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
         let p = problem(&robot, &cuts);

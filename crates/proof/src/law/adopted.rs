@@ -1,4 +1,5 @@
-//! What a law that the simulation lacks in every drive is worth once it is adopted, on drives that nothing was fitted to.
+//! What a law that a robot follows in references and recordings alike is worth once the simulation has it, on drives that nothing was
+//! fitted to.
 //!
 //! ```text
 //! robot with a law of another grammar in every drive
@@ -8,6 +9,7 @@
 
 use anyhow::Result;
 use examiner::Plan;
+use inference::robust::rms;
 use inference::{KnownEffects, Options, SearchForLaw};
 use law::{Law, OwnEffect};
 use serde::Serialize;
@@ -89,13 +91,13 @@ fn over_before(case: &Case, law: &CommonLaw) -> Result<[f64; 2]> {
     Ok([0, 1].map(|q| after[q] / before[q].max(f64::MIN_POSITIVE)))
 }
 
-/// Rms errors of the re-tuned simulation in recordings left out of its fit.
+/// Rms errors of the re-tuned simulation over the recordings, each left out of its fit.
 fn errors(case: &Case, options: &Options) -> Result<[f64; 2]> {
     let options = Options { law: SearchForLaw::Never, ..*options };
     let runs = torque_driven::diagnose(case, &options, &|_| ())?.free_runs;
     Ok(JUDGED.map(|quantity| {
         let own = |run: &&FreeRun| run.quantity.starts_with(quantity);
-        runs.iter().filter(own).map(|run| run.retuned.powi(2)).sum::<f64>().sqrt()
+        rms(runs.iter().filter(own).map(|run| run.retuned)).unwrap_or(0.0)
     }))
 }
 

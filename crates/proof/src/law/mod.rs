@@ -56,8 +56,8 @@ pub(crate) struct Args {
     /// Number of robots with a law of another grammar, which the search does not hold as it stands, all kinds in turn.
     #[arg(long, default_value_t = 20)]
     foreign: usize,
-    /// Number of robots with such a law in every drive, all kinds in turn: what is told as lacking in every drive is adopted, and further
-    /// drives are forecast without it and with it.
+    /// Number of robots that follow such a law in references and recordings alike, all kinds in turn. The law that the diagnosis tells for
+    /// all of their drives is added to the simulation, and two more drives are forecast without it and with it.
     #[arg(long, default_value_t = 10)]
     in_every_drive: usize,
     /// References of each robot; with none, a law is told only where the answer is that the cause is not in the catalogue.
@@ -195,7 +195,7 @@ fn case(plan: &Plan, folder: &Path, only: &[String], python: Option<&Python>) ->
     Ok(Some(judged))
 }
 
-/// A robot that is drawn, and its case.
+/// A robot that is drawn, and its case, of which no files stay.
 fn opened(plan: &Plan, folder: &Path) -> Result<(DrawnCase, torque_driven::Case)> {
     let drawn = plan.draw()?;
     let case = written(&drawn, folder)?;
