@@ -1,5 +1,6 @@
 //! A car as its owner states it.
 
+use crate::constants::Quantity;
 use crate::settings::{Known as Defaults, SETTINGS};
 
 const DEFAULTS: Defaults = SETTINGS.known;
@@ -13,17 +14,27 @@ pub struct Stated {
     pub sigma: f64,
     /// Whether the owner states it; otherwise it is the usual value of such cars.
     pub is_stated: bool,
+    /// Whether the owner knows more of it than is usual. A number with a sigma as large as usual only says where to begin.
+    pub is_known: bool,
 }
 
 impl Stated {
     /// A number of the owner.
     pub const fn of(value: f64, sigma: f64) -> Self {
-        Self { value, sigma, is_stated: true }
+        Self { value, sigma, is_stated: true, is_known: true }
+    }
+
+    /// A number of the owner in the place of this one; without a sigma it is known as well as usual.
+    pub(crate) fn replaced_by(self, value: f64, sigma: Option<f64>) -> Self {
+        let is_size = value != 0.0 && self.value != 0.0;
+        let usual = if is_size { self.share() * value.abs() } else { self.sigma };
+        let is_known = sigma.is_none_or(|sigma| sigma < SETTINGS.known.as_usual * usual.min(self.sigma));
+        Self { value, sigma: sigma.unwrap_or(usual), is_stated: true, is_known }
     }
 
     /// A usual number.
     pub(crate) const fn usual(value: f64, sigma: f64) -> Self {
-        Self { value, sigma, is_stated: false }
+        Self { value, sigma, is_stated: false, is_known: false }
     }
 
     /// The sigma relative to the value.
@@ -65,6 +76,8 @@ pub struct Car {
     pub radius: Stated,
     /// Time over which the encoder counts for a speed, s; 0 of a speed at an instant.
     pub encoder_window: f64,
+    /// What its owner states of constants that have no place above, with the sigma where there is one.
+    pub more: Vec<(Quantity, f64, Option<f64>)>,
 }
 
 impl Car {
@@ -89,6 +102,18 @@ impl Car {
             direction: Stated::usual(0.0, DEFAULTS.direction),
             radius: usual([1.0, DEFAULTS.radius]),
             encoder_window: 0.0,
+            more: Vec::new(),
         }
+    }
+
+    /// A constant that has no place of its own: as stated, or as usual.
+    pub(crate) fn or_usual(&self, quantity: Quantity, usual: Stated) -> Stated {
+        let stated = self.more.iter().find(|more| more.0 == quantity);
+        stated.map_or(usual, |&(_, value, sigma)| usual.replaced_by(value, sigma))
+    }
+
+    /// Whether its owner says what motor and throttle do: of what is not stated nothing can be wrong.
+    pub(crate) fn states_drive(&self) -> bool {
+        self.drive_gain.is_known || self.dead_zone.is_known
     }
 }

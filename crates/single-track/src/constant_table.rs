@@ -12,16 +12,16 @@ pub fn constants(car: &Car) -> Vec<Constant> {
     use Quantity as Q;
     let (known, usual, scatter, form) = (SETTINGS.known, SETTINGS.usual, SETTINGS.scatter, SETTINGS.form);
     // Of a drive of which nothing is stated nothing can be wrong; finer laws only make its numbers uncertain.
-    let states_drive = car.drive_gain.is_stated || car.dead_zone.is_stated;
+    let has_finer = |quantity| car.states_drive() || car.more.iter().any(|more| more.0 == quantity);
     let mut out = Vec::new();
     let mut add = |quantity, name, unit, is_factor: bool, stated: Stated, usual, scatter, cause| {
         let sigma = if is_factor { stated.share() } else { stated.sigma };
         let Stated { value: given, is_stated, .. } = stated;
         out.push(Constant { quantity, name, unit, given, is_stated, is_factor, sigma, usual, scatter, cause });
     };
-    let none = |sigma: f64| Stated::usual(0.0, sigma);
-    let usually = |[value, share]: [f64; 2]| Stated::usual(value, value * share);
-    let flat = |[value, sigma]: [f64; 2]| Stated::usual(value, sigma);
+    let none = |quantity, sigma: f64| car.or_usual(quantity, Stated::usual(0.0, sigma));
+    let flat = |quantity, [value, sigma]: [f64; 2]| car.or_usual(quantity, Stated::usual(value, sigma));
+    let one = |quantity, share: f64| car.or_usual(quantity, Stated::usual(1.0, share));
     // What is stated is a number of another law than the model's.
     let and = |stated: Stated, sigma: f64| Stated { sigma: stated.sigma.hypot(sigma), ..stated };
     let and_share = |stated: Stated, share: f64| and(stated, share * stated.value);
@@ -51,7 +51,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "bend of the steering map, odd",
         "rad",
         false,
-        none(known.curve),
+        none(Q::Curve, known.curve),
         usual.curve,
         scatter.curve,
         &spec::STEERING_MAP,
@@ -61,7 +61,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "bend of the steering map, even",
         "rad",
         false,
-        none(known.curve),
+        none(Q::Asymmetry, known.curve),
         usual.curve,
         scatter.curve,
         &spec::STEERING_MAP,
@@ -91,7 +91,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "time of the steering for a radian",
         "s/rad",
         false,
-        none(known.slowness),
+        none(Q::Slowness, known.slowness),
         usual.slowness,
         scatter.delay,
         &spec::STEERING_RATE,
@@ -101,7 +101,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "half of the play of the steering",
         "rad",
         false,
-        none(known.play),
+        none(Q::Play, known.play),
         usual.play,
         scatter.curve,
         &spec::STEERING_PLAY,
@@ -132,7 +132,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "compliance of the front tyres",
         "rad s²/m",
         false,
-        none(known.compliance),
+        none(Q::FrontCompliance, known.compliance),
         usual.compliance,
         scatter.compliance,
         &spec::TYRE_SLIP,
@@ -142,7 +142,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "compliance of the rear tyres",
         "rad s²/m",
         false,
-        none(known.compliance),
+        none(Q::RearCompliance, known.compliance),
         usual.compliance,
         scatter.compliance,
         &spec::TYRE_SLIP,
@@ -152,7 +152,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "inverse of the grip of the front",
         "s²/m",
         false,
-        none(known.inverse_grip),
+        none(Q::FrontInverseGrip, known.inverse_grip),
         usual.inverse_grip,
         scatter.inverse_grip,
         &spec::GRIP_LIMIT,
@@ -162,7 +162,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "inverse of the grip of the rear",
         "s²/m",
         false,
-        none(known.inverse_grip),
+        none(Q::RearInverseGrip, known.inverse_grip),
         usual.inverse_grip,
         scatter.inverse_grip,
         &spec::GRIP_LIMIT,
@@ -192,7 +192,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "acceleration lost per speed and throttle",
         "1/s",
         false,
-        flat(known.back_emf),
+        flat(Q::BackEmf, known.back_emf),
         usual.back_emf,
         scatter.viscous,
         &spec::TOP_SPEED,
@@ -202,7 +202,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "dry friction of the drive",
         "m/s²",
         false,
-        flat(known.friction),
+        flat(Q::Friction, known.friction),
         usual.friction,
         scatter.friction,
         &spec::DRIVE_FRICTION,
@@ -212,28 +212,30 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "viscous friction of the drive",
         "1/s",
         false,
-        flat(known.viscous),
+        flat(Q::Viscous, known.viscous),
         usual.viscous,
         scatter.viscous,
         &spec::DRIVE_FRICTION,
     );
-    if states_drive {
+    if has_finer(Q::MotorBraking) {
         add(
             Q::MotorBraking,
             "acceleration lost per speed while there is throttle",
             "1/s",
             false,
-            flat(known.motor_braking),
+            flat(Q::MotorBraking, known.motor_braking),
             usual.motor_braking,
             scatter.viscous,
             &spec::TOP_SPEED,
         );
+    }
+    if has_finer(Q::Drag) {
         add(
             Q::Drag,
             "deceleration per square of the speed",
             "1/m",
             false,
-            flat(known.drag),
+            flat(Q::Drag, known.drag),
             usual.drag,
             scatter.drag,
             &spec::DRIVE_FRICTION,
@@ -244,18 +246,18 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "time constant of the drive",
         "s",
         false,
-        flat(known.drive_lag),
+        flat(Q::DriveLag, known.drive_lag),
         usual.delay,
         scatter.delay,
         &spec::DRIVE_LAG,
     );
-    if states_drive {
+    if has_finer(Q::DriveDelay) {
         add(
             Q::DriveDelay,
             "dead time of the drive",
             "s",
             false,
-            flat(known.drive_delay),
+            flat(Q::DriveDelay, known.drive_delay),
             usual.drive_delay,
             scatter.delay,
             &spec::DRIVE_LAG,
@@ -263,7 +265,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
     }
     let slopes = [(Q::SlopeX, "slope along x of the pose's frame"), (Q::SlopeY, "slope along y of the pose's frame")];
     for (quantity, name) in slopes {
-        add(quantity, name, "rad", false, none(known.slope), usual.slope, scatter.slope, &spec::GROUND_SLOPE);
+        add(quantity, name, "rad", false, none(quantity, known.slope), usual.slope, scatter.slope, &spec::GROUND_SLOPE);
     }
     add(
         Q::PointX,
@@ -300,7 +302,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "the car's channels come late by",
         "s",
         false,
-        none(known.delay),
+        none(Q::Clock, known.delay),
         usual.delay,
         scatter.delay,
         &spec::CAR_CLOCK_DELAY,
@@ -310,7 +312,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "scale of the gyro",
         "1",
         true,
-        usually([1.0, known.gyro_scale]),
+        one(Q::GyroScale, known.gyro_scale),
         usual.gyro_scale,
         scatter.scale,
         &spec::GYRO_SCALE,
@@ -320,7 +322,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "bias of the gyro",
         "rad/s",
         false,
-        none(known.gyro_bias),
+        none(Q::GyroBias, known.gyro_bias),
         usual.gyro_bias,
         scatter.bias,
         &spec::GYRO_BIAS,
@@ -330,7 +332,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "delay of the gyro",
         "s",
         false,
-        none(known.delay),
+        none(Q::GyroDelay, known.delay),
         usual.delay,
         scatter.delay,
         &spec::GYRO_DELAY,
@@ -340,7 +342,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "encoder speed over ground speed",
         "1",
         true,
-        Stated::usual(1.0, car.radius.share()),
+        one(Q::EncoderScale, car.radius.share()),
         usual.encoder,
         scatter.scale,
         &spec::ENCODER_SCALE,
@@ -350,7 +352,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "slip of the driven wheels in bends",
         "s⁴/m²",
         false,
-        none(known.wheel_slip),
+        none(Q::WheelSlip, known.wheel_slip),
         usual.wheel_slip,
         scatter.wheel_slip,
         &spec::WHEEL_SLIP_IN_BENDS,
@@ -360,7 +362,7 @@ pub fn constants(car: &Car) -> Vec<Constant> {
         "delay of the encoder",
         "s",
         false,
-        none(known.delay),
+        none(Q::EncoderDelay, known.delay),
         usual.delay,
         scatter.delay,
         &spec::ENCODER_DELAY,

@@ -47,6 +47,31 @@ pub enum Quantity {
     EncoderDelay,
 }
 
+impl Quantity {
+    /// Whether there is none below 0.
+    pub(crate) fn is_size(self) -> bool {
+        use Quantity as Q;
+        matches!(
+            self,
+            Q::SteeringLag
+                | Q::Slowness
+                | Q::Play
+                | Q::FrontCompliance
+                | Q::RearCompliance
+                | Q::FrontInverseGrip
+                | Q::RearInverseGrip
+                | Q::DeadZone
+                | Q::BackEmf
+                | Q::Friction
+                | Q::Viscous
+                | Q::MotorBraking
+                | Q::Drag
+                | Q::DriveLag
+                | Q::WheelSlip
+        )
+    }
+}
+
 /// A constant: a deviation `θ` from what is given, as a factor `e^θ` or as a sum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
@@ -76,36 +101,13 @@ impl Constant {
     /// Least and largest deviation.
     pub(crate) fn bounds(&self) -> [f64; 2] {
         let far = SETTINGS.fitting.farthest * (self.usual + self.sigma);
-        [if self.is_size() { -self.given } else { -far }, far]
+        [if self.quantity.is_size() { -self.given } else { -far }, far]
     }
 
     /// Whether something is known of it from which it may differ: by its owner, or, of the friction of the drive, by references. Of yaw
     /// inertia and clocks these say little: they make up for tyres and delays that are not quite the model's, in each drive otherwise.
     pub(crate) fn can_be_wrong(&self, has_references: bool) -> bool {
         self.sigma < self.usual || (has_references && matches!(self.quantity, Quantity::Friction | Quantity::Viscous))
-    }
-
-    /// Whether there is none below 0.
-    fn is_size(&self) -> bool {
-        use Quantity as Q;
-        matches!(
-            self.quantity,
-            Q::SteeringLag
-                | Q::Slowness
-                | Q::Play
-                | Q::FrontCompliance
-                | Q::RearCompliance
-                | Q::FrontInverseGrip
-                | Q::RearInverseGrip
-                | Q::DeadZone
-                | Q::BackEmf
-                | Q::Friction
-                | Q::Viscous
-                | Q::MotorBraking
-                | Q::Drag
-                | Q::DriveLag
-                | Q::WheelSlip
-        )
     }
 }
 

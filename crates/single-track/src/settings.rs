@@ -180,6 +180,8 @@
         wheel_slip: f64 = 3e-4, "s⁴/m²", "guess; a hundredth at 6 m/s²";
         /// Radius of the wheels that the encoder's speed is computed with.
         radius: f64 = 0.02, "share", "guess; rubber under load";
+        /// Share of the usual sigma below which an owner knows more of a number than is usual.
+        as_usual: f64 = 0.999, "share", "rounding in files";
     }
 
     /// By how much a number of the owner's differs from that of the model because a car has another law than the model: one

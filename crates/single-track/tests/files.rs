@@ -35,6 +35,17 @@ fn what_is_wrong_with_a_robot_file_is_one_sentence_with_its_remedy() {
     assert!(refused("yaw = \"yaw_rad\"\n", "").contains("give x, y and yaw, or none of them"));
     assert!(refused("kind = \"car\"", "kind = \"lorry\"").contains("belong to kind = \"car\""));
     assert!(refused("sigma = 0.001", "sigma = 0.0").contains("sigma of wheelbase is 0; it has to be above 0"));
+    let tyres = |row: &str| refused("[steering]", &format!("[tyres]\n{row}\n[steering]"));
+    let negative = tyres("rear_compliance = { value = -0.01 }");
+    assert!(negative.contains("rear_compliance of [tyres] is -0.01; it has to be 0 or above"), "{negative}");
+    let sure = tyres("rear_compliance = { value = 0.01, sigma = 0.0 }");
+    assert!(sure.contains("sigma of rear_compliance of [tyres] is 0; it has to be above 0"), "{sure}");
+    let ratio = refused("[steering]", "[gyro]\nscale = { value = 0.0 }\n[steering]");
+    assert!(ratio.contains("scale of [gyro] is 0; it has to be above 0"), "{ratio}");
+    let slope = refused("[steering]", "[ground]\nslope_x = { value = nan }\n[steering]");
+    assert!(slope.contains("slope_x of [ground] is NaN; it has to be a number"), "{slope}");
+    let twice = refused(wheelbase, &format!("{wheelbase}yaw_inertia_over_mass = {{ value = 0.01 }}\n"));
+    assert!(twice.contains("yaw_inertia and yaw_inertia_over_mass; leave one of them out"), "{twice}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use single_track::file::RobotFile;
-use single_track::{Car, Constant, Quantity, Stated, constants};
+use single_track::{Car, Constant, Quantity, constants};
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, table, value};
 use verdict::Diagnosis;
 
@@ -11,60 +11,44 @@ use crate::edit::{document, rounded, set, set_source};
 
 /// The corrected file, and what it cannot hold.
 pub(super) fn robot_file(name: &str, text: &str, diagnosis: &Diagnosis) -> Result<(String, Vec<Unheld>)> {
-    let car = RobotFile::parse(name, text)?.car;
+    let read = RobotFile::parse(name, text)?;
     let mut document = document(name, text)?;
     let mass = document.get("mass").and_then(Item::as_table_like).and_then(|t| number(t.get("value")?));
-    for constant in constants(&car) {
-        let Some(place) = place(&car, mass, constant.quantity) else { continue };
+    let told = told(diagnosis);
+    for constant in constants(&read.car) {
         let Some(found) = diagnosis.tuning.get(constant.name) else { continue };
-        edit(&mut document, &place, *found);
+        let is_told = told.iter().any(|told| told.name == constant.name);
+        if !is_of_a_day(constant.quantity) || is_told {
+            edit(&mut document, &read, mass, &constant, *found);
+        }
     }
     let edited = document.to_string();
     RobotFile::parse(name, &edited).context("no car can have the corrected numbers")?;
-    let held = |constant: &Constant| place(&car, mass, constant.quantity).is_some();
-    Ok((edited, unheld(&car, diagnosis, held)))
+    Ok((edited, unheld(&read.car, diagnosis, |_| true)))
 }
 
-/// Where a robot file has a constant: table, key, what the owner states of it, what the value is multiplied by, unit.
-struct Place {
-    table: Option<&'static str>,
-    key: &'static str,
-    stated: Stated,
-    factor: f64,
-    unit: &'static str,
+/// Whether a number belongs to the day and the place of the drives, not to the car: it is written only where it is told.
+fn is_of_a_day(quantity: Quantity) -> bool {
+    use Quantity as Q;
+    matches!(quantity, Q::SlopeX | Q::SlopeY | Q::Clock | Q::GyroBias | Q::GyroDelay | Q::EncoderDelay)
 }
 
-/// Where a robot file has a constant, if it has one. Numbers of a drive that the owner leaves out stay out: what a file
-/// does not state of its drive is fitted to every set of drives.
-fn place(car: &Car, mass: Option<f64>, quantity: Quantity) -> Option<Place> {
-    let states_drive = car.drive_gain.is_stated || car.dead_zone.is_stated;
-    let of = |table: &'static str, key, stated, unit| {
-        let table = (!table.is_empty()).then_some(table);
-        Some(Place { table, key, stated, factor: 1.0, unit })
-    };
-    match quantity {
-        Quantity::Wheelbase => of("", "wheelbase", car.wheelbase, "m"),
-        Quantity::CentreOfMass => of("", "centre_of_mass", car.centre_of_mass, "m"),
-        Quantity::Gyration => {
-            let place = of("", "yaw_inertia", car.gyration, "kg m²");
-            place.zip(mass).map(|(place, mass)| Place { factor: mass, ..place })
+/// Writes a constant where its file has it.
+fn edit(document: &mut DocumentMut, read: &RobotFile, mass: Option<f64>, constant: &Constant, found: f64) {
+    let (mut inside, mut key) = constant.quantity.key();
+    let mut factor = 1.0;
+    let states_ratio = document.contains_key("yaw_inertia_over_mass");
+    match (constant.quantity, mass) {
+        // Of yaw inertia and mass only their ratio shows.
+        (Quantity::Gyration, Some(mass)) if !states_ratio => factor = mass,
+        (Quantity::Gyration, _) => key = "yaw_inertia_over_mass",
+        // A command in units of an angle asks for that angle, whatever the steering makes of it.
+        (Quantity::FullSteering, _) if read.columns.steering_unit != "command" => {
+            (inside, key, factor) = (Some("steering"), "gain", 1.0 / read.full_asked);
         }
-        Quantity::FullSteering => of("steering", "full_angle", car.full_steering, "rad"),
-        Quantity::Centre => of("steering", "centre", car.centre, "rad"),
-        Quantity::SteeringDelay => of("steering", "delay", car.steering_delay, "s"),
-        Quantity::SteeringLag => of("steering", "lag", car.steering_lag, "s"),
-        Quantity::DriveGain if states_drive => of("drive", "full_acceleration", car.drive_gain, "m/s²"),
-        Quantity::DeadZone if states_drive => of("drive", "dead_zone", car.dead_zone, "of the throttle"),
-        Quantity::PointX => of("point", "x", car.point_x, "m"),
-        Quantity::PointY => of("point", "y", car.point_y, "m"),
-        Quantity::Direction => of("point", "yaw", car.direction, "rad"),
-        _ => None,
+        _ => {}
     }
-}
-
-fn edit(document: &mut DocumentMut, place: &Place, found: f64) {
-    let Place { table: inside, key, stated, factor, unit } = *place;
-    let [from, to] = [stated.value, found].map(|x| rounded(factor * x));
+    let [from, to] = [constant.given, found].map(|x| rounded(factor * x));
     if from == to {
         return;
     }
@@ -74,20 +58,25 @@ fn edit(document: &mut DocumentMut, place: &Place, found: f64) {
         Some(name) => root.entry(name).or_insert_with(table).as_table_like_mut(),
     };
     let Some(parent) = parent else { return };
+    let unit = if key == "yaw_inertia" { "kg m²" } else { constant.unit };
+    let unit = if matches!(unit, "1") || key == "gain" { String::new() } else { format!(" {unit}") };
     if let Some(row) = parent.get_mut(key).and_then(Item::as_table_like_mut) {
         set(row, "value", to);
-        set_source(row, &format!("re-tuned by lacuna from {from} {unit}"));
+        set_source(row, &format!("re-tuned by lacuna from {from}{unit}"));
         return;
     }
-    // Of what the owner does not state the usual number stood in.
-    let from = if stated.is_stated {
-        format!("{from} {unit}, which follows from other keys")
-    } else {
-        format!("the usual {from} {unit}, for none was stated")
-    };
+
+    // Of what the owner does not state the usual number stood in, and it is known no better by its owner.
     let mut row = InlineTable::new();
     row.insert("value", to.into());
-    row.insert("source", format!("re-tuned by lacuna from {from}").into());
+    if constant.is_stated || key == "gain" {
+        let by = if key == "gain" { "" } else { ", which follows from other keys" };
+        row.insert("source", format!("re-tuned by lacuna from {from}{unit}{by}").into());
+    } else {
+        let sigma = constant.sigma * if constant.is_factor { found.abs() } else { 1.0 };
+        row.insert("sigma", rounded(factor * sigma).into());
+        row.insert("source", format!("re-tuned by lacuna from the usual {from}{unit}, for none was stated").into());
+    }
     parent.insert(key, value(row));
 }
 

@@ -1,5 +1,6 @@
 //! Cars as files, and drives as tables: text in, a car and its drives out.
 
+mod keys;
 mod robot;
 mod series;
 mod table;

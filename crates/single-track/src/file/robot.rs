@@ -4,6 +4,7 @@ use hierarchical_fit::CaseError as CarError;
 use serde::Deserialize;
 
 use crate::car::{Car, Stated};
+use crate::constants::Quantity;
 
 /// Cars that are there by name.
 pub const BUILT_IN: &[(&str, &str)] =
@@ -18,6 +19,8 @@ pub struct RobotFile {
     pub description: Option<String>,
     /// Where its drives are recorded.
     pub columns: Columns,
+    /// Angle that a steering command of 1 asks for; what the steering makes of it is the car's.
+    pub full_asked: f64,
 }
 
 /// Columns of a drive.
@@ -66,12 +69,21 @@ struct File {
     front_axle_mass: Option<Number>,
     centre_of_mass: Option<Number>,
     yaw_inertia: Option<Number>,
+    yaw_inertia_over_mass: Option<Number>,
     wheel_radius: Option<Number>,
     steering: Option<Steering>,
     #[serde(default)]
     drive: DriveTrain,
     #[serde(default)]
+    tyres: Tyres,
+    #[serde(default)]
+    ground: Ground,
+    #[serde(default)]
     point: Point,
+    #[serde(default)]
+    clock: Clock,
+    #[serde(default)]
+    gyro: Gyro,
     #[serde(default)]
     encoder: Encoder,
     columns: Option<Columns>,
@@ -92,9 +104,14 @@ struct Number {
 #[serde(deny_unknown_fields)]
 struct Steering {
     full_angle: Option<Number>,
+    gain: Option<Number>,
     centre: Option<Number>,
+    bend: Option<Number>,
+    asymmetry: Option<Number>,
     delay: Option<Number>,
     lag: Option<Number>,
+    seconds_per_radian: Option<Number>,
+    half_play: Option<Number>,
 }
 
 #[derive(Default, Deserialize)]
@@ -102,6 +119,29 @@ struct Steering {
 struct DriveTrain {
     full_acceleration: Option<Number>,
     dead_zone: Option<Number>,
+    back_emf: Option<Number>,
+    friction: Option<Number>,
+    viscous_friction: Option<Number>,
+    motor_braking: Option<Number>,
+    drag: Option<Number>,
+    lag: Option<Number>,
+    delay: Option<Number>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Tyres {
+    front_compliance: Option<Number>,
+    rear_compliance: Option<Number>,
+    front_inverse_grip: Option<Number>,
+    rear_inverse_grip: Option<Number>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Ground {
+    slope_x: Option<Number>,
+    slope_y: Option<Number>,
 }
 
 #[derive(Default, Deserialize)]
@@ -114,8 +154,62 @@ struct Point {
 
 #[derive(Default, Deserialize)]
 #[serde(deny_unknown_fields)]
+struct Clock {
+    delay: Option<Number>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Gyro {
+    scale: Option<Number>,
+    bias: Option<Number>,
+    delay: Option<Number>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Encoder {
     window: Option<f64>,
+    scale: Option<Number>,
+    slip_in_bends: Option<Number>,
+    delay: Option<Number>,
+}
+
+impl File {
+    /// What is stated of constants that have no place of their own in [`Car`].
+    fn more(&self) -> Vec<(Quantity, &Number)> {
+        use Quantity as Q;
+        let steering = self.steering.as_ref();
+        let of_steering = |of: fn(&Steering) -> Option<&Number>| steering.and_then(of);
+        let (tyres, drive) = (&self.tyres, &self.drive);
+        let all = [
+            (Q::Curve, of_steering(|s| s.bend.as_ref())),
+            (Q::Asymmetry, of_steering(|s| s.asymmetry.as_ref())),
+            (Q::Slowness, of_steering(|s| s.seconds_per_radian.as_ref())),
+            (Q::Play, of_steering(|s| s.half_play.as_ref())),
+            (Q::FrontCompliance, tyres.front_compliance.as_ref()),
+            (Q::RearCompliance, tyres.rear_compliance.as_ref()),
+            (Q::FrontInverseGrip, tyres.front_inverse_grip.as_ref()),
+            (Q::RearInverseGrip, tyres.rear_inverse_grip.as_ref()),
+            (Q::BackEmf, drive.back_emf.as_ref()),
+            (Q::Friction, drive.friction.as_ref()),
+            (Q::Viscous, drive.viscous_friction.as_ref()),
+            (Q::MotorBraking, drive.motor_braking.as_ref()),
+            (Q::Drag, drive.drag.as_ref()),
+            (Q::DriveLag, drive.lag.as_ref()),
+            (Q::DriveDelay, drive.delay.as_ref()),
+            (Q::SlopeX, self.ground.slope_x.as_ref()),
+            (Q::SlopeY, self.ground.slope_y.as_ref()),
+            (Q::Clock, self.clock.delay.as_ref()),
+            (Q::GyroScale, self.gyro.scale.as_ref()),
+            (Q::GyroBias, self.gyro.bias.as_ref()),
+            (Q::GyroDelay, self.gyro.delay.as_ref()),
+            (Q::EncoderScale, self.encoder.scale.as_ref()),
+            (Q::WheelSlip, self.encoder.slip_in_bends.as_ref()),
+            (Q::EncoderDelay, self.encoder.delay.as_ref()),
+        ];
+        all.into_iter().filter_map(|(quantity, number)| Some((quantity, number?))).collect()
+    }
 }
 
 impl RobotFile {
@@ -162,6 +256,7 @@ impl RobotFile {
             (&read.front_axle_mass, "front_axle_mass"),
             (&read.centre_of_mass, "centre_of_mass"),
             (&read.yaw_inertia, "yaw_inertia"),
+            (&read.yaw_inertia_over_mass, "yaw_inertia_over_mass"),
             (&read.wheel_radius, "wheel_radius"),
             (&read.drive.full_acceleration, "full_acceleration of [drive]"),
         ];
@@ -169,6 +264,12 @@ impl RobotFile {
             above_none(number, name)?;
         }
         above_none(&steering.0.full_angle, "full_angle of [steering]")?;
+        above_none(&steering.0.gain, "gain of [steering]")?;
+        above_none(&read.gyro.scale, "scale of [gyro]")?;
+        above_none(&read.encoder.scale, "scale of [encoder]")?;
+        for (quantity, number) in read.more() {
+            check_more(quantity, number).map_err(wrong)?;
+        }
         if steering.1.value >= std::f64::consts::FRAC_PI_2 {
             let what = format!("full_angle is {} rad; write radians below 1.57, not degrees", steering.1.value);
             return Err(wrong(what));
@@ -189,13 +290,16 @@ impl RobotFile {
         let mut car = Car::new(&read.name, wheelbase.value);
         let set = |to: &mut Stated, number: &Option<Number>| {
             if let Some(n) = number {
-                let share = to.share();
-                let usual = if n.value == 0.0 || to.value == 0.0 { to.sigma } else { share * n.value.abs() };
-                *to = Stated::of(n.value, n.sigma.unwrap_or(usual));
+                *to = to.replaced_by(n.value, n.sigma);
             }
         };
         set(&mut car.wheelbase, &read.wheelbase);
         set(&mut car.full_steering, &steering.0.full_angle);
+        if let Some(gain) = &steering.0.gain {
+            let full = &mut car.full_steering;
+            (full.value, full.sigma) = (full.value * gain.value, full.sigma * gain.value);
+            full.sigma = full.sigma.hypot(gain.sigma.unwrap_or(0.0) * full.value);
+        }
         set(&mut car.centre, &steering.0.centre);
         set(&mut car.steering_delay, &steering.0.delay);
         set(&mut car.steering_lag, &steering.0.lag);
@@ -225,7 +329,11 @@ impl RobotFile {
             );
             return Err(wrong(what));
         }
+        set(&mut car.gyration, &read.yaw_inertia_over_mass);
         match (&read.yaw_inertia, &read.mass) {
+            (Some(_), _) if read.yaw_inertia_over_mass.is_some() => {
+                return Err(wrong("yaw_inertia and yaw_inertia_over_mass; leave one of them out".to_owned()));
+            }
             (Some(inertia), Some(mass)) => {
                 let usual = car.gyration.share() * inertia.value;
                 car.gyration = Stated::of(inertia.value / mass.value, inertia.sigma.unwrap_or(usual) / mass.value);
@@ -234,6 +342,7 @@ impl RobotFile {
             (None, _) => {}
         }
         car.encoder_window = read.encoder.window.unwrap_or(0.0);
+        car.more = read.more().into_iter().map(|(quantity, n)| (quantity, n.value, n.sigma)).collect();
         let all =
             [&car.wheelbase, &car.full_steering, &car.centre, &car.point_x, &car.point_y, &car.direction, &car.radius];
         if all.iter().any(|s| !(s.sigma > 0.0 && s.value.is_finite())) {
@@ -241,6 +350,25 @@ impl RobotFile {
                 "a sigma is not above 0; write how well the number is known, one standard deviation".to_owned(),
             ));
         }
-        Ok(Self { car, description: read.description, columns })
+        Ok(Self { car, description: read.description, columns, full_asked: steering.1.value })
+    }
+}
+
+/// Refuses a number that no car can have.
+fn check_more(quantity: Quantity, number: &Number) -> Result<(), String> {
+    let (table, key) = quantity.key();
+    let name = table.map_or_else(|| key.to_owned(), |table| format!("{key} of [{table}]"));
+    let value = number.value;
+    if !value.is_finite() {
+        return Err(format!("{name} is {value}; it has to be a number"));
+    }
+    if quantity.is_size() && value < 0.0 {
+        return Err(format!("{name} is {value}; it has to be 0 or above"));
+    }
+    match number.sigma {
+        Some(sigma) if sigma.is_nan() || sigma <= 0.0 => Err(format!(
+            "sigma of {name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
+        )),
+        _ => Ok(()),
     }
 }

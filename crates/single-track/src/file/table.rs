@@ -27,8 +27,8 @@ impl RobotFile {
     /// Steering command, −1 to 1, per unit of its column.
     pub(crate) fn steering_per_unit(&self) -> f64 {
         match self.columns.steering_unit.as_str() {
-            "rad" => 1.0 / self.car.full_steering.value,
-            "deg" => 1.0_f64.to_radians() / self.car.full_steering.value,
+            "rad" => 1.0 / self.full_asked,
+            "deg" => 1.0_f64.to_radians() / self.full_asked,
             _ => 1.0,
         }
     }
