@@ -334,6 +334,8 @@
         uneven: f64 = 0.15, "share", "guess; driven wheels slip by some per cent more where a car is fast";
         /// Rows of a sensor below which nothing is said.
         least: usize = 200, "1", "guess: ten seconds of twenty rows each";
+        /// Share of what readings just before and after show that a reading has to share with them, below which nothing is said.
+        reliable: f64 = 0.5, "share", "guess; half of it is noise of the pose then";
     }
 
     /// When something is left that no cause accounts for.
