@@ -43,13 +43,14 @@ impl RobotFile {
         let measured = Measured {
             torque: names.torque.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
             steering: names.joints.iter().map(|(c, unit)| needed(c, *unit)).collect::<Result<_, _>>()?,
-            wheels: if is_held_out {
+            // Of a drive that is held out they say how a prediction begins, where they are there.
+            wheels: if is_held_out && names.wheels.iter().any(|c| !signals.contains_key(c)) {
                 Vec::new()
             } else {
                 names.wheels.iter().map(|c| needed(c, names.turning)).collect::<Result<_, _>>()?
             },
             is_speed: names.is_speed,
-            gyro: names.gyro.as_ref().filter(|_| !is_held_out).map(|c| optional(c, names.rate)).unwrap_or_default(),
+            gyro: names.gyro.as_ref().map(|c| optional(c, names.rate)).unwrap_or_default(),
             pose,
         };
         Drive::new(name, &self.robot, &measured, is_held_out)
@@ -121,7 +122,11 @@ mod tests {
         // A pose that is to be predicted, and wheels, may be missing.
         let row = |k: u32| format!("{:.2},1.0,0.1\n", 0.02 * f64::from(k));
         let held_out = "time_s,torque_front,steer_rad\n".to_owned() + &(0..200).map(row).collect::<String>();
-        assert!(!file.drive(&testing::table("a", &held_out), true).expect("a drive").has_pose());
+        let drive = file.drive(&testing::table("a", &held_out), true).expect("a drive");
+        assert!(!drive.has_pose() && drive.wheels.is_empty());
+        // Where they are there, a prediction begins at the velocity that they show.
+        let seen = file.drive(&testing::table("a", &rows(200)), true).expect("a drive");
+        assert!(!seen.wheels.is_empty());
         let milli = text.replace("time = \"time_s\"", "time = \"time_s\"\ntime_unit = \"ms\"");
         let milli = RobotFile::parse("robot.toml", &milli).expect("a robot");
         let scaled: String = rows(200)
