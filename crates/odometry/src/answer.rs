@@ -4,9 +4,9 @@ use crate::findings::Findings;
 use crate::forecast::LENGTHS;
 use crate::left_out::Table;
 use crate::settings::SETTINGS;
-use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
-use hierarchical_fit::Wording;
+use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL, WHEEL_DISTANCE};
 use hierarchical_fit::telling::{Found, Unaccounted};
+use hierarchical_fit::{NamedCause, Wording};
 
 use crate::findings::is_nothing_that_slips;
 use verdict::Diagnosis;
@@ -96,6 +96,16 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
         out.push(
             "forecasts of left-out drives take the size of a cause that begins or ends from the other drives, and its instant from the \
              left-out drive itself"
+                .to_owned(),
+        );
+    }
+    let is_wider = |cause: &NamedCause| {
+        cause.spec.id == WHEEL_DISTANCE.id && cause.estimates.first().is_some_and(|e| e.value > e.given)
+    };
+    if findings.named.iter().any(is_wider) {
+        out.push(
+            "wheels farther apart than stated, and wheels that scrub in every turn so that the same share of turning is lost, look the \
+             same: measure the distance of the wheels before it is corrected"
                 .to_owned(),
         );
     }
