@@ -86,7 +86,11 @@ impl Judged<'_> {
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
         let spec = variant.spec();
         let strengths = variant.strengths().len();
-        let moved = stand_in::sigma_of_size(self.problem, variant, e[0]);
+        let moved = stand_in::sigma_of_size(self.problem, variant, e[0]).hypot(stand_in::mass_of_motors(
+            self.problem,
+            variant,
+            &trial.fitted.point.theta,
+        ));
         let [curvature, model_error] = self.margins();
         let curvature = curvature * self.misfit(&trial.fitted).sqrt();
         let mut place = None;

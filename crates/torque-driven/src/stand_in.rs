@@ -1,7 +1,7 @@
 //! Effects that a constant of the robot can stand for: the constant may have moved since the references.
 
 use robot_model::Robot;
-use robot_model::tunable::{COUNT as NUISANCES, tunables};
+use robot_model::tunable::{COUNT as NUISANCES, tunables, tuned};
 
 use crate::fit::{Point, Problem};
 use crate::run_numbers::constant;
@@ -113,6 +113,17 @@ pub(crate) fn sigma_of_size(problem: &Problem<'_>, variant: &Variant, size: f64)
     if problem.has_references { moved().unwrap_or(0.0) } else { 0.0 }
 }
 
+/// Mass that the motors' inertia took over from an extra mass or gave to it, kg, as one sigma of its size: in straight driving
+/// `2 J / r²` is a mass, and only how the robot scrubs and turns tells them apart, which no plant has quite as its robot. Where
+/// references hold the inertia it takes over nothing.
+pub(crate) fn mass_of_motors(problem: &Problem<'_>, variant: &Variant, theta: &[f64; NUISANCES]) -> f64 {
+    if problem.has_references || variant.spec().id != "payload" {
+        return 0.0;
+    }
+    let moved = tuned(problem.robot, &problem.sigma, theta).motor_inertia - problem.robot.motor_inertia;
+    2.0 * moved.abs() / problem.robot.wheel_radius.powi(2)
+}
+
 /// Whether an effect of the catalogue is this constant under another name.
 pub(crate) fn is_an_effect(place: usize, robot: &Robot<f64>) -> bool {
     variants(true).iter().any(|v| StandIn::of(v, robot).is_some_and(|constant| constant.place == place))
@@ -198,6 +209,26 @@ mod tests {
         approx::assert_relative_eq!(of_size("torque_constant", 0.2), 1.2 * sigma, epsilon = 1e-12);
         assert_eq!(of_size("grade", 0.05), 0.0);
         assert_eq!(priced("torque_constant", -1.5), None, "no factor is negative");
+    }
+
+    #[test]
+    fn without_references_an_extra_mass_is_as_unsure_as_what_the_motors_inertia_took_over() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
+        let mut problem = problem(&robot, &cuts);
+        problem.has_references = false;
+        let forms = problem.variants();
+        let of = |id: &str| forms.iter().find(|v| v.spec().id == id).expect("in the catalogue");
+        let mut theta = [0.0; NUISANCES];
+        assert_eq!(mass_of_motors(&problem, of("payload"), &theta), 0.0);
+        let place = constant("motor_inertia");
+        theta[place] = 4.0;
+        let grown = robot.motor_inertia * ((4.0 * problem.sigma[place]).exp() - 1.0);
+        let mass = 2.0 * grown / robot.wheel_radius.powi(2);
+        approx::assert_relative_eq!(mass_of_motors(&problem, of("payload"), &theta), mass, max_relative = 1e-9);
+        assert_eq!(mass_of_motors(&problem, of("torque_constant"), &theta), 0.0);
+        problem.has_references = true;
+        assert_eq!(mass_of_motors(&problem, of("payload"), &theta), 0.0, "references hold the inertia");
     }
 
     #[test]
