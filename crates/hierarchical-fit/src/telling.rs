@@ -185,15 +185,24 @@ fn unit_of(e: &Estimate) -> &str {
     if e.unit == "1" { "-" } else { e.unit }
 }
 
+/// The number that tells how large a cause is: the first, or the one that moved most where that is as it was given, such as the slope
+/// along the other axis.
+fn size(estimates: &[Estimate]) -> Option<&Estimate> {
+    let first = estimates.first()?;
+    let moved = |e: &Estimate| (e.value - e.given).abs() / e.half_width.max(f64::MIN_POSITIVE);
+    let farthest = estimates.iter().max_by(|a, b| moved(a).total_cmp(&moved(b)))?;
+    Some(if moved(first) > 1.0 { first } else { farthest })
+}
+
 fn cause(named: &NamedCause) -> Cause {
     let mut out = Cause::plain(named.spec.id, &named.label, named.probability);
-    if let Some(first) = named.estimates.first() {
+    if let Some(size) = size(&named.estimates) {
         // Sizes of lengths and gains are factors; these numbers themselves stand among the parameters.
-        let is_factor = first.given != 0.0 && unit_of(first) != named.spec.unit;
-        let factor = if is_factor { first.given } else { 1.0 };
-        out.magnitude = Some(first.value / factor);
-        out.sigma = Some(first.half_width / NINETY / factor.abs());
-        out.unit = named.spec.unit.into();
+        let is_factor = size.given != 0.0 && named.spec.unit == "-" && unit_of(size) != "-";
+        let factor = if is_factor { size.given } else { 1.0 };
+        out.magnitude = Some(size.value / factor);
+        out.sigma = Some(size.half_width / NINETY / factor.abs());
+        out.unit = if is_factor { "-" } else { unit_of(size) }.to_owned().into();
     }
     let number =
         |e: &Estimate| verdict::Estimate { value: e.value, sigma: Some(e.half_width / NINETY), at_bound: false };
@@ -260,6 +269,29 @@ mod tests {
         let runs = free_runs("run", "counts alone", [2.0, 10.0, 0.5], |_, _| Some([Some(1.0), Some(2.0)]));
         let of = |quantity: &str| runs.iter().filter_map(|run| length_of(run, quantity)).collect::<Vec<_>>();
         assert_eq!((of("position"), of("heading"), of("speed")), (vec![2.0, 10.0, 0.5], vec![2.0, 10.0, 0.5], vec![]));
+    }
+
+    #[test]
+    fn the_size_of_a_cause_is_its_first_number_that_moved_in_its_own_unit() {
+        let number = |name: &str, unit, given: f64, value: f64| Estimate {
+            name: name.to_owned(),
+            unit,
+            given,
+            value,
+            half_width: 0.01,
+            sigmas: 1.0,
+        };
+        let of = |estimates: Vec<Estimate>| {
+            let spec = &catalogue::car::DRIVE_FRICTION;
+            let label = spec.id.to_owned();
+            let (alike, intervals) = (Vec::new(), Vec::new());
+            let told = cause(&NamedCause { spec, label, probability: 0.9, alike, estimates, intervals, onset: None });
+            (told.magnitude.expect("a size"), told.unit.to_string())
+        };
+        let dry = |value| number("dry friction", "m/s²", 0.1, value);
+        let viscous = number("viscous friction", "1/s", 0.03, 0.15);
+        assert_eq!(of(vec![dry(0.2), viscous.clone()]), (0.2, "m/s²".to_owned()));
+        assert_eq!(of(vec![dry(0.105), viscous]), (0.15, "1/s".to_owned()));
     }
 
     #[test]
