@@ -186,7 +186,8 @@ impl Said {
     /// Judges what was named by drives that were left out, and [decides](Said::decide) anew; whether it was taken back. Causes with which
     /// they are forecast worse than as stated, and which leave more of the motion than `rules.share`, are refuted: something else is
     /// missing. Re-tuned constants that no owner would believe may forecast better and refute nothing. Causes with which they are
-    /// forecast hardly better than as stated, or worse than re-tuned, are confirmed by nothing, and no longer named; but where forecasts could
+    /// forecast hardly better than as stated, or worse than re-tuned, or which show in no drive beside re-tuned constants, are confirmed by
+    /// nothing, and no longer named; but where forecasts could
     /// not show one of them: where `shows` says so, as of a sensor that they do not predict, and where it is there in a single drive.
     pub fn judge(
         &mut self,
@@ -201,7 +202,10 @@ impl Said {
             self.is_refuted = true;
             self.answer = Answer::Unknown;
         }
-        let is_worse = standing.over_retuned >= naming.worse && self.retuned.iter().all(Estimate::is_believable);
+        let [_, retuned, left] = self.shares;
+        let is_no_better = standing.over_retuned >= naming.no_better && left >= naming.no_better * retuned;
+        let is_worse =
+            (standing.over_retuned >= naming.worse || is_no_better) && self.retuned.iter().all(Estimate::is_believable);
         let is_confirmed = standing.over_nominal < naming.confirmed && !is_worse;
         let is_shown = |cause: &NamedCause| shows(cause) && !cause.is_in_one_drive();
         if self.answer != Answer::Named || is_confirmed || !self.named.iter().all(is_shown) {
@@ -371,6 +375,8 @@ mod tests {
         assert_eq!(judged([2.0, 1.0, 0.9], 0.08), Answer::Named);
         assert_eq!(judged([2.0, 1.0, 1.05], 0.08), Answer::Named, "hardly worse than re-tuned");
         assert_eq!(judged([2.0, 1.0, 1.3], 0.08), Answer::Nothing, "worse than re-tuned");
+        assert_eq!(judged([2.0, 1.0, 1.0], 0.089), Answer::Nothing, "no drive shows it");
+        assert_eq!(judged([2.0, 1.0, 0.97], 0.089), Answer::Named, "drives that were left out do");
         assert_eq!(judged([1.0, 2.0, 0.98], 0.08), Answer::Nothing, "hardly better than as stated");
         assert_eq!(judged_where(false, [1.0, 2.0, 0.98], 0.08), Answer::Named, "a sensor that they do not predict");
         let began = |others: bool| {

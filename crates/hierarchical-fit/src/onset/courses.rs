@@ -53,11 +53,6 @@ impl Grid {
         at.is_some_and(|at| at < near || at + near >= series.len())
     }
 
-    /// Whether nothing changes within a drive.
-    pub(crate) fn is_between_drives(&self, course: &Course) -> bool {
-        course.iter().zip(&self.lengths).all(|(from, length)| *from == 0 || from == length)
-    }
-
     /// Where something may change in a drive that changes anew in each.
     fn in_one(&self, drive: usize) -> Vec<usize> {
         let length = self.lengths[drive];
@@ -126,7 +121,6 @@ mod tests {
         let series = grid.in_series();
         assert_eq!(series.first(), Some(&vec![4, 0]));
         assert!(series.contains(&vec![20, 0]) && series.last() == Some(&vec![20, 15]));
-        assert!(grid.is_between_drives(&vec![20, 0]) && !grid.is_between_drives(&vec![20, 15]));
 
         let truth = [7.0, 12.0];
         let score = |course: &Course| {

@@ -1,6 +1,7 @@
 //! When a cause is there that begins or ends while the drives go on.
 
 mod courses;
+mod gated;
 mod hypotheses;
 mod scan;
 pub(crate) mod search;
@@ -64,6 +65,12 @@ impl Onset {
     /// Whether it ends there.
     pub fn ends(&self) -> bool {
         self.gate.ends
+    }
+
+    /// Whether, of so many drives, it is there, or was there, in one alone.
+    pub(crate) fn is_in_one(&self, drives: usize) -> bool {
+        let first = self.drive();
+        !self.is_anew() && if self.ends() { first == 0 } else { first + 1 >= drives }
     }
 
     /// Whether it does so in several drives anew.
@@ -147,6 +154,7 @@ mod tests {
             let onset = solved.onset.as_ref().expect("an onset");
             // The first row with it became known after 12 s, and tells of a window before.
             assert_eq!((onset.drive(), onset.ends(), onset.is_anew()), (1, ends, false));
+            assert_eq!([1, 2, 3].map(|drives| onset.is_in_one(drives)), [!ends, !ends, false]);
             let (time, interval) = onset.changes[1].expect("within the second drive");
             assert_relative_eq!(time, 11.4, epsilon = 1e-9);
             assert!(interval[0] < 11.0 && interval[1] > 12.0, "{interval:?}");

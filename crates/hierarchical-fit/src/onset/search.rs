@@ -17,6 +17,7 @@ use crate::fit::Fit;
 use crate::name::{Named, covariance, score};
 use crate::observed::Observed;
 use crate::onset::courses::{Course, Grid};
+use crate::onset::gated::fitted;
 use crate::onset::hypotheses::{Hypothesis, directions, hypotheses, likely};
 use crate::onset::scan::Scan;
 use crate::onset::told::when;
@@ -37,6 +38,8 @@ pub(super) struct Weighted {
     pub(super) factor: f64,
     /// Constants, then how far the cause moves them along its directions, at the most probable instant.
     pub(super) posterior: Posterior,
+    /// Deviations of drives about which its equations stand; `None` where they are those of the fit without it.
+    own: Option<Vec<DVector<f64>>>,
 }
 
 /// Equations of all stretches with and without a cause, and the constants about which they stand.
@@ -87,7 +90,7 @@ pub(crate) fn onset<D: Observed>(
     let about = Equations { off: own.clone(), on: own, theta: DVector::from_column_slice(&fit.theta), moved: None };
     let found = sought.scanned(&hypotheses(causes.len(), &set, D::ANEW && data.drives.len() > 1), &about, always)?;
     let refined: Vec<(Weighted, Noise)> =
-        found.into_par_iter().filter_map(|weighted| sought.refined(weighted)).collect();
+        found.into_par_iter().filter_map(|weighted| sought.refined(weighted, &about.off)).collect();
 
     // What a cause that is there for a part of the time leaves where it is taken to be always there is no noise.
     let noise = refined.iter().fold(fit.noise, |noise, (_, own)| noise.sharper(*own));
@@ -191,7 +194,7 @@ impl<D: Observed> Sought<'_, D> {
         let (_, best) = instants.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         let posterior = all(best)?.posterior(&known)?;
         let score = self.claimed(&hypothesis, &instants, factor);
-        let out = Weighted { hypothesis, score, instants, factor, posterior };
+        let out = Weighted { hypothesis, score, instants, factor, posterior, own: None };
         self.is_possible(&out).then_some(out)
     }
 
@@ -268,44 +271,24 @@ impl<D: Observed> Sought<'_, D> {
         [mean.rows(0, n).into_owned(), mean.rows(n, mean.len() - n).into_owned()]
     }
 
-    /// Deviations of drives about which equations of a hypothesis stand. Where drives scatter more without a step between two of them than
-    /// with it, those of the fit are the step, and it would count twice.
-    fn own(&self, weighted: &Weighted) -> Vec<DVector<f64>> {
-        let best = weighted.instants.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        let is_step = best.is_some_and(|(_, course)| self.grid.is_between_drives(course));
-        if is_step && weighted.factor < self.fit.factor {
-            self.fit.own.iter().map(|own| DVector::zeros(own.len())).collect()
-        } else {
-            self.fit.own.clone()
-        }
-    }
-
     /// A hypothesis by equations about where it led.
     fn again(&self, weighted: &Weighted, noise: Noise) -> Option<(Weighted, Equations)> {
         let ([theta, moved], [_, acting]) = (self.split(weighted), self.constants(weighted));
-        let own = self.own(weighted);
-        let of = |theta: &DVector<f64>| stretches(self.data, theta.as_slice(), &own, (noise, SETTINGS.onset.coarse));
+        let own = weighted.own.as_ref().unwrap_or(&self.fit.own);
+        let of = |theta: &DVector<f64>| stretches(self.data, theta.as_slice(), own, (noise, SETTINGS.onset.coarse));
         let about = Equations { off: of(&theta), on: of(&acting), theta, moved: Some(moved) };
-        Some((self.weighed(&weighted.hypothesis, &about, &likely(&weighted.instants))?, about))
+        let next = self.weighed(&weighted.hypothesis, &about, &likely(&weighted.instants))?;
+        Some((Weighted { own: weighted.own.clone(), ..next }, about))
     }
 
-    /// The same until it rests, with what its errors scatter by.
-    fn refined(&self, mut weighted: Weighted) -> Option<(Weighted, Noise)> {
-        let mut about = None;
-        for _ in 0..SETTINGS.onset.rounds {
-            let (next, equations) = self.again(&weighted, self.fit.noise)?;
-            (weighted, about) = (next, Some(equations));
-        }
-        let gate = when(&weighted, &about?.off)?.0;
-        let [off, on] = self.constants(&weighted);
-        let of = |(k, own): (usize, &DVector<f64>)| {
-            let drive = &self.data.drives[k];
-            let errors =
-                |at: &DVector<f64>| drive.errors(&self.data.model, &self.data.own_constants(at.as_slice(), own));
-            gate.chosen(k, drive.rows(), &errors(&on), &errors(&off))
-        };
-        let errors: Vec<Vec<f64>> = self.own(&weighted).iter().enumerate().map(of).collect();
-        Some((weighted, self.data.noise(&errors)))
+    /// A hypothesis about a fit of its own, with what its errors scatter by; `drives`: their stretches.
+    fn refined(&self, weighted: Weighted, drives: &[Vec<Stretch>]) -> Option<(Weighted, Noise)> {
+        let gate = when(&weighted, drives)?.0;
+        let known = self.prior.with(self.causes, &weighted.hypothesis.always);
+        let moves = directions(&self.causes[weighted.hypothesis.cause], self.prior.mean.len());
+        let found = fitted(self.data, &known, &gate, &moves, &weighted.posterior.mean)?;
+        let posterior = Posterior { mean: found.theta, ..weighted.posterior };
+        Some((Weighted { posterior, own: Some(found.own), ..weighted }, found.noise))
     }
 
     /// By how many times rows seem to say more than they do where a hypothesis holds.

@@ -68,7 +68,13 @@ impl<D: Observed> Sought<'_, D> {
         // What it explains must be more than laws that are not quite those of the robot get wrong.
         let left = self.data.share_with(mean.as_slice(), &onset);
         let [always, retuned] = [&named.posterior, &named.retuned].map(|p| self.data.share(p.mean.as_slice()));
-        let leaves = if hypothesis.anew { rules.leaves_anew } else { rules.leaves };
+        let leaves = if hypothesis.anew {
+            rules.leaves_anew
+        } else if onset.is_in_one(self.data.drives.len()) {
+            rules.leaves_alone
+        } else {
+            rules.leaves
+        };
         let is_of_motion = always >= rules.errs && left <= leaves * always && left <= D::HARDLY * retuned;
         // What a sensor shows otherwise from an instant on is in its own readings.
         let is_of_readings = || {
