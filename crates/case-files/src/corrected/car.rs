@@ -46,6 +46,8 @@ fn edit(document: &mut DocumentMut, read: &RobotFile, mass: Option<f64>, constan
         (Quantity::FullSteering, _) if read.columns.steering_unit != "command" => {
             (inside, key, factor) = (Some("steering"), "gain", 1.0 / read.full_asked);
         }
+        // A gain beside it stays.
+        (Quantity::FullSteering, _) => factor = read.full_asked / constant.given,
         _ => {}
     }
     let [from, to] = [constant.given, found].map(|x| rounded(factor * x));

@@ -187,6 +187,14 @@ fn a_steering_that_is_asked_for_angles_keeps_what_it_makes_of_them_as_a_gain() {
     let again = robot(Kind::Car, &written.text, Some(verdict(&[("steering angle at full command", 0.36)], &[])));
     let text = again.robot_file().expect("a file").text;
     assert!(text.contains("gain = { value = 0.9, source"), "{text}");
+
+    // Of commands without a unit the angle is corrected, and a gain beside it stays.
+    let with_gain = CAR.replace("[columns]", "gain = { value = 0.5 }\n\n[columns]");
+    let found = [("steering angle at full command", 0.22)];
+    let text = robot(Kind::Car, &with_gain, Some(verdict(&found, &found))).robot_file().expect("a file").text;
+    let read = single_track::file::RobotFile::parse("car.toml", &text).expect("a car");
+    assert_relative_eq!(read.car.full_steering.value, 0.22, max_relative = 1e-8);
+    assert!(text.contains("gain = { value = 0.5 }") && text.contains("full_angle = { value = 0.44"), "{text}");
 }
 
 #[test]
