@@ -9,7 +9,7 @@ use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::gyro_beside_pose;
 use inference::robust::NINETY;
 use robot_model::effect::LoadTerm;
-use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, wheel_radius_mismatch};
+use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, payload, wheel_radius_mismatch};
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{
     Cause, Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
@@ -302,8 +302,11 @@ fn changes(loads: &Loads) -> Vec<Vec<Cause>> {
         let intervals = by_recording(turning.iter().map(|c| (c.recording.as_str(), c.interval)));
         // Turns one way only do not tell the ground from a side that drags.
         let one_way = turning.iter().all(|c| c.one_way.is_some()) && loads.side_changes.is_empty();
-        let ids = [catalogue::of_load_term(LoadTerm::Turning), coulomb_side::SPEC.id];
-        let ids = if one_way { &ids[..] } else { &ids[..1] };
+        let mut ids = vec![catalogue::of_load_term(LoadTerm::Turning)];
+        ids.extend(one_way.then_some(coulomb_side::SPEC.id));
+        // A load is put on once.
+        let is_load = matches!(turning[..], [only] if only.from_rest);
+        ids.extend(is_load.then_some(payload::SPEC.id));
         let cause = |id: &&str| Cause { intervals: Some(intervals.clone()), ..known(id, ids.len()) };
         classes.push(ids.iter().map(cause).collect());
     }

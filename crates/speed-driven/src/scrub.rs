@@ -6,6 +6,7 @@ use crate::model::{Operating, predicted};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, changes::Scrub};
 use crate::straight::Reading;
+use crate::zero::rows_left_standing;
 use inference::robust::{NINETY, mean, median, rms};
 use robot_model::Robot;
 use verdict::{Quantity, TurningChange, Way};
@@ -191,7 +192,45 @@ pub(crate) fn turning_changes(
             ratio,
             half,
             one_way,
+            from_rest: false,
         });
+    }
+    let is_unlike = |interval: [f64; 2]| {
+        let between = seen.iter().filter(|&&i| interval[0] < run.time[i] && run.time[i] < interval[1]);
+        between.filter(|&&i| other(i) == 0).count() as f64 * period
+    };
+    let mut out = joined(out, is_unlike);
+    let until = run.time[run.time.len() - 1];
+    let rests: Vec<[f64; 2]> =
+        rows_left_standing(run).iter().map(|rows| [run.time[rows[0]], run.time[rows[rows.len() - 1]]]).collect();
+    for change in &mut out {
+        let [from, to] = change.onset;
+        let stood = rests.iter().map(|[a, b]| b.min(to) - a.max(from)).fold(0.0, f64::max);
+        change.from_rest = change.end[1] >= until && stood >= SCRUB.loading;
+    }
+    out
+}
+
+/// Changes one after the other that are as large and have little of the usual between them are one: slow arcs cost less on any ground.
+/// `usual`: seconds of usual turning between two instants.
+fn joined(all: Vec<TurningChange>, usual: impl Fn([f64; 2]) -> f64) -> Vec<TurningChange> {
+    let mut out: Vec<TurningChange> = Vec::new();
+    for next in all {
+        let is_same = |last: &&mut TurningChange| {
+            let seconds = last.seconds + next.seconds;
+            (last.ratio > 1.0) == (next.ratio > 1.0)
+                && (last.ratio - next.ratio).abs() < last.half.hypot(next.half)
+                && usual([last.interval[1], next.interval[0]]) <= SCRUB.between * seconds
+        };
+        let Some(last) = out.last_mut().filter(is_same) else {
+            out.push(next);
+            continue;
+        };
+        let mean = |a: f64, b: f64| (last.seconds * a + next.seconds * b) / (last.seconds + next.seconds);
+        (last.ratio, last.half) = (mean(last.ratio, next.ratio), mean(last.half, next.half));
+        last.one_way = last.one_way.filter(|way| next.one_way == Some(*way));
+        last.seconds += next.seconds;
+        (last.interval[1], last.end) = (next.interval[1], next.end);
     }
     out
 }
@@ -219,6 +258,39 @@ mod tests {
         assert!(c.onset[0] > 38.0 && c.onset[0] < 41.0 && c.onset[1] > 44.0 && c.onset[1] < 46.5, "{c:?}");
         assert!((c.ratio - 37.5 / 25.5).abs() < c.half, "{c:?}");
         assert_eq!(c.one_way, None);
+    }
+
+    #[test]
+    fn changes_that_are_alike_are_one_and_a_load_may_have_been_put_on_while_the_robot_stood() {
+        let change = |from: f64, ratio: f64, one_way| TurningChange {
+            recording: "run".to_owned(),
+            interval: [from, from + 20.0],
+            onset: [from - 5.0, from],
+            end: [from + 20.0, from + 22.0],
+            seconds: 20.0,
+            ratio,
+            half: 0.2,
+            one_way,
+            from_rest: false,
+        };
+        let all = || vec![change(10.0, 1.4, None), change(40.0, 1.5, Some(Way::Left)), change(70.0, 0.6, None)];
+        let found = joined(all(), |_| 2.0);
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].interval, found[0].onset[0], found[0].end[1]), ([10.0, 60.0], 5.0, 62.0));
+        assert!((found[0].ratio - 1.45).abs() < 1e-12 && found[0].one_way.is_none() && found[0].seconds == 40.0);
+        assert_eq!(joined(all(), |_| 20.0).len(), 3, "much of the usual lies between them");
+
+        let standing = |seconds: f64| Leg { speed: [0.0; 2], scrub: 0.0, ..Leg::straight(seconds) };
+        let driven =
+            |rest: Leg, after: Vec<Leg>| drive(&[rounds(4, 20.0), vec![rest], rounds(4, 32.0), after].concat(), false);
+        let is_from_rest = |run: &SpeedRun| {
+            let found = turning_changes(run, &robot(), Some(25.5), EQUAL);
+            assert_eq!(found.len(), 1, "{found:?}");
+            found[0].from_rest
+        };
+        assert!(is_from_rest(&driven(standing(20.0), Vec::new())));
+        assert!(!is_from_rest(&driven(Leg::straight(20.0), Vec::new())), "it drove on");
+        assert!(!is_from_rest(&driven(standing(20.0), rounds(4, 20.0))), "it ended without a rest");
     }
 
     #[test]

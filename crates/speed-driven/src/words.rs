@@ -261,6 +261,13 @@ pub(crate) fn any_of(names: &[String]) -> String {
 
 pub(crate) fn turning_change(c: &TurningChange) -> String {
     let what = match c.one_way {
+        None if c.from_rest => {
+            let put = if c.ratio > 1.0 { "put on" } else { "taken off" };
+            format!(
+                "the ground is another from there on, or a load was {put} while the robot stood, after which it lasts until the \
+                 recording ends; weigh the robot, or drive on the old ground again, to tell"
+            )
+        }
         None => "the ground is another there".to_owned(),
         Some(way) => {
             let way = if way == Way::Left { "left" } else { "right" };

@@ -32,6 +32,14 @@ pub(crate) fn rows_at_rest(run: &SpeedRun) -> Vec<Vec<usize>> {
     stretches.into_iter().filter(|rows| rows.len() as f64 * run.period() >= ZERO.least).collect()
 }
 
+/// Rows of the stretches in which a robot is left standing: nothing is asked of its wheels or, where that is not recorded, its drive is at
+/// rest.
+pub(crate) fn rows_left_standing(run: &SpeedRun) -> Vec<Vec<usize>> {
+    let Some(commanded) = &run.commanded else { return rows_at_rest(run) };
+    let is_left = |i: &usize| commanded.iter().all(|side| side[*i].abs() < ZERO.still);
+    pieces(&run.time, (0..run.time.len()).filter(is_left), ZERO.gap)
+}
+
 fn is_slow(run: &SpeedRun, i: usize) -> bool {
     (0..2).all(|j| run.speed[j][i].abs() < ZERO.still)
 }

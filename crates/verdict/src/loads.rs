@@ -277,6 +277,9 @@ pub struct TurningChange {
     /// The one way in which the robot turned there; `None` if it turned both ways.
     #[serde(default)]
     pub one_way: Option<Way>,
+    /// Whether it may have begun while the robot stood, and lasts until the recording ends: a load may have been put on or taken off.
+    #[serde(default)]
+    pub from_rest: bool,
 }
 
 /// A side that takes another torque in straight driving from an instant on until the recording ends, while the other one does not.

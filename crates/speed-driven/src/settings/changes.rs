@@ -216,6 +216,10 @@ pub(super) const fn degrees(x: f64) -> f64 {
         least: f64 = 3.0, "s", "guess";
         /// A way counts as turned to, or a side as known, after so much steady turning.
         one_way: f64 = 1.5, "s", "guess";
+        /// Usual turning between two changes that are one, over what shows these.
+        between: f64 = 0.2, "share", "guess; slow arcs";
+        /// Time in which a load is put on a robot that stands, at least.
+        loading: f64 = 4.0, "s", "guess; a hand and a box";
         /// What turning costs on the references' ground is known after so much of it.
         known: f64 = 5.0, "s", "guess";
     }
