@@ -10,7 +10,8 @@
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
 //! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
-//!   all of it by one set of equations (`scan`), the best by their own (`search`).
+//!   all of it by one set of equations (`scan`), the best by their own (`search`) about fits of the constants with and without them
+//!   (`gated`).
 //! * `corrected`: constants with what is named, at instants of drives that were fitted or left out.
 //! * `found`, `said`, `telling`, `sentences`, `hedges`: what was found as plain data, and as what all verdicts of such comparisons share.
 //! * `next_drive`, `menu`: which drive would tell the remaining answers apart, and among which to choose.
