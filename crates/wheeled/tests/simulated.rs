@@ -81,9 +81,12 @@ fn a_cause_that_begins_while_the_robot_drives_is_told_with_its_instant() {
     let (findings, table) = examine(&case, Some(12.0), &|_| {}).expect("findings");
     let told = diagnosis(&findings, &table, false);
     let first = &told.ranked[0];
-    assert_eq!(first.effect, "rolling_drag", "{:#?}", told.sentences);
-    let size = first.parameters["rolling resistance"];
-    assert!((size.value - 0.06).abs() < 0.006, "{size:?}");
+    // A driven wheel that rolls with more friction, and all wheels that do, slow this tricycle alike.
+    let class = ["motor_dry_friction", "rolling_drag"];
+    let told_as = |effect: &str| told.indistinguishable.iter().flatten().any(|id| id == effect);
+    assert!(class.contains(&&*first.effect) && class.iter().all(|effect| told_as(effect)), "{:#?}", told.sentences);
+    let rolling = first.parameters.get("rolling resistance").map(|size| size.value);
+    assert!(rolling.is_none_or(|rolling| (rolling - 0.06).abs() < 0.006), "{rolling:?}");
 
     let spans = first.intervals.as_ref().expect("an onset");
     assert!(!spans.contains_key("drive 1") && spans["drive 3"][0][0] == 0.0, "{spans:?}");
