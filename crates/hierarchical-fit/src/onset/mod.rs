@@ -116,7 +116,7 @@ impl Onset {
         let first = if self.is_anew() { self.changes.iter().position(Option::is_some)? } else { self.drive() };
         let inside = self.changes.iter().zip(names).enumerate().filter(|(k, _)| *k != first);
         let anew = inside.filter_map(|(_, (change, name))| Some(((*name).to_owned(), (*change)?))).collect();
-        let others = if self.ends() { first > 0 } else { first + 1 < names.len() };
+        let others = !self.is_in_one(names.len());
         Some(Began { drive: (*names.get(first)?).to_owned(), at: self.changes[first], anew, ends: self.ends(), others })
     }
 }

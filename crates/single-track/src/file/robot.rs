@@ -233,10 +233,8 @@ impl RobotFile {
             Some(n) if n.value.is_nan() || n.value <= 0.0 => {
                 Err(wrong(format!("{name} is {}; it has to be above 0", n.value)))
             }
-            Some(Number { sigma: Some(sigma), .. }) if sigma.is_nan() || *sigma <= 0.0 => Err(wrong(format!(
-                "sigma of {name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
-            ))),
-            _ => Ok(()),
+            Some(n) => check_sigma(name, n.sigma).map_err(wrong),
+            None => Ok(()),
         };
         let wheelbase = read.wheelbase.as_ref().ok_or_else(|| {
             wrong(
@@ -365,7 +363,12 @@ fn check_more(quantity: Quantity, number: &Number) -> Result<(), String> {
     if quantity.is_size() && value < 0.0 {
         return Err(format!("{name} is {value}; it has to be 0 or above"));
     }
-    match number.sigma {
+    check_sigma(&name, number.sigma)
+}
+
+/// Refuses a sigma that is none.
+fn check_sigma(name: &str, sigma: Option<f64>) -> Result<(), String> {
+    match sigma {
         Some(sigma) if sigma.is_nan() || sigma <= 0.0 => Err(format!(
             "sigma of {name} is {sigma}; it has to be above 0: give one sigma of how well this is known, or leave it out"
         )),
