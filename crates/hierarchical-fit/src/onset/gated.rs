@@ -130,3 +130,22 @@ impl<D: Observed> Observed for Gated<'_, D> {
         self.drive.apart(kind)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scaled::Scaled;
+
+    #[test]
+    fn a_cause_that_is_there_from_an_instant_on_is_fitted_beside_the_constants_before_it() {
+        let spreads = vec![Spread { sigma: 0.1, usual: 0.3, scatter: 0.003, bounds: [-5.0, 5.0] }];
+        let drives = [[1.0, 1.0], [1.0, 1.5], [1.5, 1.5]].map(|scale| Scaled::changing(scale, 12.0)).into();
+        let data = Data { model: (), spreads, drives };
+        let gate = Gate { known: vec![f64::INFINITY, 12.0, 0.0], ends: false };
+        let moves = (DMatrix::from_element(1, 1, 1.0), DVector::from_element(1, 0.09));
+        let start = DVector::from_column_slice(&[0.1, 0.2]);
+        let found = fitted(&data, &data.prior(), &gate, &moves, &start).expect("a fit");
+        approx::assert_relative_eq!(found.theta[0], 0.0, epsilon = 0.02);
+        approx::assert_relative_eq!(found.theta[1], 1.5_f64.ln(), epsilon = 0.02);
+    }
+}
