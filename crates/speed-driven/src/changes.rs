@@ -97,7 +97,12 @@ pub(crate) fn inside(run: &SpeedRun, usual: &Usual, weight: f64) -> (Changes, Op
         if is_sloping(run.time[i]) { weight * slope.as_ref().map_or(0.0, by_angle) } else { 0.0 }
     };
     let is_levelled = run.body_rates.as_ref().is_some_and(|rates| rates.level.is_some());
-    let tilt = slope.as_ref().map(|a| Tilt { pull_sigma: &pull_sigma, is_levelled, turned: &a.turned });
+    let tilt = slope.as_ref().map(|a| Tilt {
+        pull_sigma: &pull_sigma,
+        is_levelled,
+        turned: &a.turned,
+        is_sloping: &is_sloping,
+    });
     found.extend(jumps(run, &rest, &level, &usual, weight, tilt.as_ref()));
     (Changes { found, tentative: slopes.tentative, hidden: hidden(run, &readings) }, slope)
 }
@@ -269,6 +274,12 @@ mod tests {
         // Turned onto, rates show no ramp.
         let onto = [Leg::straight(30.0), Leg::turn(8.0), Leg { straight: 0.0, ..Leg::straight(15.0) }];
         assert_eq!(causes(&drive(&onto, true)), [vec![GRADE]]);
+        // Where another slope goes on, rates that show no ramp do not say that the ground is level.
+        let down = Leg { straight: 0.0, ..Leg::straight(8.0) };
+        let up = Leg { seconds: 12.0, ..Leg::straight(15.0).slope(5.0) };
+        let climb = [Leg::straight(30.0), up, Leg::turn(8.0), down, up, Leg::straight(30.0)];
+        let all = causes(&drive(&climb, true));
+        assert!(all.len() > 1 && all.iter().all(|c| *c == [GRADE]), "{all:?}");
 
         // Held back one way, pushed the other, on ground that is level all the time.
         let pull = |leg: Leg, straight: f64| Leg { straight: straight * STRAIGHT, ..leg };

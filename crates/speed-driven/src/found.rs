@@ -12,8 +12,8 @@ use robot_model::effect::LoadTerm;
 use robot_model::effects::{coulomb_side, encoder_scale, gyro_scale, payload, wheel_radius_mismatch};
 use statrs::distribution::{ContinuousCDF, Normal};
 use verdict::{
-    Cause, Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift, Standstill,
-    TurningChange, Verdict, WrongSpeed,
+    Cause, Changes, Diagnosis, GroundSlope, LoadChange, Loads, OtherGround, Quantity, Ratio, SideChange, SideDrift,
+    Standstill, TurningChange, Verdict, WrongSpeed,
 };
 
 use crate::cause::cause;
@@ -49,6 +49,13 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
     }
     // What no law of the catalogue explains stays unexplained beside what was measured by itself.
     let is_unknown = out.verdict == Verdict::Unknown;
+    // A slope whose tilt sensors measured is one whatever the loads are like.
+    if out.verdict != Verdict::NoMismatch && !out.indistinguishable.iter().flatten().any(|id| *id == GRADE) {
+        let found = measured_slopes(loads).cloned().collect();
+        for class in changes(&Loads { changes: Changes { found, ..Changes::default() }, ..Loads::default() }) {
+            insert(out, class);
+        }
+    }
     if let Some(slope) = loads.slope.as_ref().filter(|slope| !slope.is_level) {
         insert(out, vec![slopes(slope)]);
         out.indistinguishable.rotate_right(1);
@@ -227,6 +234,11 @@ fn insert_fitting(out: &mut Diagnosis, naming: Option<&Naming>) {
 pub(crate) fn largest_side_change(loads: &Loads) -> Option<&SideChange> {
     let by = |c: &SideChange| (c.torque[1] - c.torque[0]).abs();
     loads.side_changes.iter().max_by(|a, b| by(a).total_cmp(&by(b)))
+}
+
+/// Slopes inside recordings whose tilt was measured, not inferred from loads.
+pub(crate) fn measured_slopes(loads: &Loads) -> impl Iterator<Item = &LoadChange> {
+    loads.changes.found.iter().filter(|c| c.causes == [GRADE] && c.ratio.is_none() && !c.relative)
 }
 
 /// Classes of causes of what changes inside recordings.

@@ -33,12 +33,18 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
     let encoders = [false, true].map(|followed| wrong_encoders(&loads.wrong_speeds, followed)).concat();
     let leads = [&standing, &encoders, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
+    let inside = || slope_sentences::inside(loads);
     let rest = match of_loads {
-        Verdict::Explained => located(disagreeing(loads, theirs, named(d, loads)), loads),
-        Verdict::Unknown => disagreeing(loads, theirs, unknown(loads, theirs)),
+        Verdict::Explained => [located(disagreeing(loads, theirs, named(d, loads)), loads), inside()].concat(),
+        Verdict::Unknown => [disagreeing(loads, theirs, unknown(loads, theirs)), inside()].concat(),
         Verdict::NoMismatch | Verdict::Withheld => {
             let differences = differences(d, loads, theirs);
-            if differences.is_empty() { changes(of_loads, loads, (leads, theirs)) } else { differences }
+            // A tilt that was measured is surer than a cause of a difference that none stands out for.
+            if differences.is_empty() {
+                changes(of_loads, loads, (leads, theirs))
+            } else {
+                [inside(), differences].concat()
+            }
         }
     };
     [standing, encoders, gyro, drift, slope, rest].concat()

@@ -20,18 +20,21 @@ pub(super) struct Tilt<'a> {
     pub(super) is_levelled: bool,
     /// How far the body has turned about its vertical axis at the rows, rad.
     pub(super) turned: &'a [f64],
+    /// Whether the ground does not count as level at a time, s.
+    pub(super) is_sloping: &'a dyn Fn(f64) -> bool,
 }
 
 impl Tilt<'_> {
     /// Whether a slope under a stretch of rows would have shown, between what was driven straight before and after it: turning rates
-    /// do not see one on which the robot begins, or that it turns onto.
+    /// do not see one on which the robot begins, that it turns onto, or that goes on where another slope was measured.
     fn would_show(&self, run: &SpeedRun, [first, last]: [usize; 2], [before, after]: [Option<usize>; 2]) -> bool {
         let [_, far] = CHANGES.slopes.ramp;
         let is_straight_onto = |a: usize, b: usize| {
             run.time[b] - run.time[a] <= far && (self.turned[b] - self.turned[a]).abs() <= CHANGES.slopes.turned
         };
         let at_ends = [before.map(|i| [i, first]), after.map(|i| [last, i])];
-        self.is_levelled || at_ends.into_iter().flatten().any(|[a, b]| is_straight_onto(a, b))
+        let is_from_level = |ends: &[usize; 2]| !ends.iter().any(|&i| (self.is_sloping)(run.time[i]));
+        self.is_levelled || at_ends.into_iter().flatten().filter(is_from_level).any(|[a, b]| is_straight_onto(a, b))
     }
 }
 

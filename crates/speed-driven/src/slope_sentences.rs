@@ -3,8 +3,8 @@
 use verdict::{GroundSlope, Loads};
 
 use crate::compare::{Judgement, judgement, reported, sigmas};
-use crate::found::is_by_slope;
-use crate::words::compared;
+use crate::found::{is_by_slope, measured_slopes};
+use crate::words::{change, compared};
 
 /// The slope, and the track that it may have changed.
 pub(crate) fn told(loads: &Loads, theirs: &str) -> Vec<String> {
@@ -33,6 +33,16 @@ fn under_all(s: &GroundSlope, theirs: &str) -> String {
          loads below of recordings with a yaw rate.",
         s.slope, s.half
     )
+}
+
+/// Slopes inside recordings whose tilt was measured, where the loads say more than that.
+pub(crate) fn inside(loads: &Loads) -> Vec<String> {
+    let steepest = measured_slopes(loads).max_by(|a, b| a.slope.abs().total_cmp(&b.slope.abs()));
+    let how_many = match measured_slopes(loads).count() {
+        1 => String::new(),
+        n => format!(", the steepest of {n}"),
+    };
+    steepest.map(|c| format!("Slope inside a recording{how_many}. {}", change(c))).into_iter().collect()
 }
 
 /// Another effective track on a slope, from which nothing follows.

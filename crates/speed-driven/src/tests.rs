@@ -7,7 +7,7 @@ use inference::robust::NINETY;
 use robot_model::tunable::tunables;
 
 use crate::run::SpeedRun;
-use crate::testing::{Leg, case, diagnosis, diagnosis_with, drive, robot, rounds};
+use crate::testing::{Leg, case, diagnosis, diagnosis_with, drive, levelled, robot, rounds};
 use crate::{SteadyCase, diagnose_steady};
 
 fn ratio(d: &Diagnosis, quantity: Quantity) -> &Ratio {
@@ -196,6 +196,26 @@ fn a_slope_inside_a_recording_is_a_change_and_no_quiet_verdict() {
     agrees_with_itself(&d);
     assert_eq!(d.verdict, Verdict::Explained, "{:?}", d.sentences);
     assert!(d.sentences.iter().any(|s| s.contains("uphill")), "{:?}", d.sentences);
+}
+
+#[test]
+fn a_slope_that_sensors_measure_is_a_cause_beside_a_load_that_differs() {
+    // Turning takes more in all of the recording; nothing else says why.
+    for scrub in [30.0, 60.0] {
+        let dear = |leg: Leg| Leg { scrub, ..leg };
+        let climb = vec![Leg::straight(15.0).slope(5.0), Leg::straight(20.0)];
+        let legs = [rounds(3), climb, rounds(3)].concat().into_iter().map(dear).collect::<Vec<_>>();
+        let d = diagnose_steady(
+            &case(vec![drive(&rounds(3), true)], vec![levelled(&legs, 0.0)]),
+            &Options::default(),
+            &|_| {},
+        )
+        .expect("an answer");
+        agrees_with_itself(&d);
+        let slope = d.ranked.iter().find(|c| c.effect == "grade").expect("the slope");
+        assert!(slope.probability > 0.8 && slope.intervals.is_some(), "{scrub}: {:?}", d.ranked);
+        assert!(d.sentences.iter().take(6).any(|s| s.starts_with("Slope inside a recording")), "{:?}", d.sentences);
+    }
 }
 
 #[test]

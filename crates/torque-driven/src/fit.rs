@@ -272,17 +272,28 @@ impl Problem<'_> {
 
     /// Gauss–Newton from `start`: at most `steps`, each damped only where it must be until the cost falls.
     ///
-    /// The columns of θ are those given; they are renewed before step `renew` if that is reached.
+    /// The columns of θ are those given; they are renewed before step `renew` if that is reached. Where constants are loose
+    /// they move so far that columns are renewed before every later step, and damping is kept from step to step
+    /// (Marquardt 1963): fits with old columns stop half-way, where an effect is too small and constants make up for it.
     pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
         let settings = Settings {
             iterations: steps,
             least_fall: FIT.least_gain,
             least_relative_fall: 0.0,
             least_move: 0.0,
-            ..Settings::gauss_newton()
+            ..self.damping()
         };
         let fit = FreeRunFit { problem: self, hypothesis: h, free: h.free(&self.sizes()), renew };
         minimise(&fit, start, &settings).at
+    }
+
+    fn damping(&self) -> Settings {
+        let undamped = Settings::gauss_newton();
+        if !self.constants_are_loose {
+            return undamped;
+        }
+        let Settings { lower, least_damping, .. } = Settings::default();
+        Settings { first_damping: FIT.first_damping, lower, least_damping, ..undamped }
     }
 
     /// A fit's first point with its response and columns.
@@ -317,7 +328,7 @@ struct FreeRunFit<'a> {
     problem: &'a Problem<'a>,
     hypothesis: &'a Hypothesis,
     free: Vec<Free>,
-    /// Before which step the columns of θ are renewed.
+    /// Before which step the columns of θ are renewed, at the latest.
     renew: Option<usize>,
 }
 
@@ -334,7 +345,7 @@ impl least_squares::Problem for FreeRunFit<'_> {
 
     fn linearise(&self, at: &mut Fitted, iteration: usize) -> Option<Normal> {
         let p = self.problem;
-        if self.renew == Some(iteration) {
+        if self.renew == Some(iteration) || (p.constants_are_loose && iteration > 0) {
             at.columns = Arc::new(p.nuisance_columns(&at.point, self.hypothesis, &at.response));
         }
         let effects = p.effect_columns(&at.point, self.hypothesis, &at.response);

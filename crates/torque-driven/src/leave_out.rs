@@ -254,6 +254,7 @@ mod tests {
     use crate::case::Case;
     use crate::channel::Channel;
     use crate::decision::Decision;
+    use crate::nothing::without_effect;
     use crate::redundancy::Redundant;
     use crate::testing::{calibration, cutting, driven, problem};
     use crate::trial::Trial;
@@ -261,7 +262,7 @@ mod tests {
     use crate::windows::cut;
     use inference::Options;
     use inference::hypothesis::Place;
-    use robot_model::tunable::usual_sigma;
+    use robot_model::Robot;
     use testing::robot;
 
     fn scored(p: &Problem<'_>, id: &str, score: f64) -> Scored {
@@ -323,26 +324,15 @@ mod tests {
 
     #[test]
     fn without_references_a_fit_begins_where_that_of_all_recordings_ended_too() {
-        // A robot file that is off by much in constants that hide each other.
-        let truth = robot();
-        let mut far = [0.0; NUISANCES];
-        for (place, constant) in robot_model::tunable::tunables::<f64>().iter().enumerate() {
-            far[place] =
-                if ["mass", "motor_inertia", "adhesion", "viscous"].contains(&constant.id) { 6.0 } else { 0.0 };
-        }
-        let file = robot_model::tunable::tuned(&truth, &usual_sigma(), &far);
-        let cuts = [8.0, 10.0].map(|seconds| cut(&driven(&truth, &[], seconds), &cutting()));
-        let error = |constants_are_loose: bool| {
-            let p = Problem { constants_are_loose, ..problem(&file, &cuts) };
-            let (calibration, case) = (calibration(&p), Case { pose_sigma: 1e-4, ..Case::new(file) });
-            let (options, sensors) = Default::default();
-            let decision = Decision { none: 1.0, ..Decision::default() };
-            let answer = judged(&p, &case, (&options, &sensors), &calibration, &decision);
-            let arrived = Point { theta: far.map(|x| -x), ..p.origin() };
-            let retuned = p.begin(&Hypothesis::default(), arrived, None);
-            leave_one_out(&answer, &retuned).free_runs[0].retuned
-        };
-        let [from_the_file, from_both] = [error(false), error(true)];
+        // Between a tyre that slips by a share of its speed and a contact that creeps with the slip speed lie bad fits.
+        let file = robot();
+        let truth = Robot { slip_at_peak: 0.1, rest_speed: 3.0, adhesion: 0.6 * file.adhesion, ..file };
+        let cuts = [14.0, 18.0].map(|seconds| cut(&driven(&truth, &[], seconds), &cutting()));
+        let p = Problem { has_references: false, constants_are_loose: true, ..problem(&file, &cuts) };
+        let origin = p.begin(&Hypothesis::default(), p.origin(), None);
+        let arrived = without_effect(&p, &origin).point;
+        let cost = |may_be_far| fitted_on_others(&p, &Hypothesis::default(), &arrived, may_be_far).cost;
+        let [from_the_file, from_both] = [false, true].map(cost);
         assert!(from_both < 0.8 * from_the_file, "{from_the_file} {from_both}");
     }
 

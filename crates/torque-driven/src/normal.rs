@@ -152,7 +152,7 @@ impl Problem<'_> {
         p.effects.copy_from_slice(effects);
 
         // Blocks come as they were eliminated: the runs of a visit, then the visit, at last the runs without one.
-        let by_step = step.normal.back_substituted(step.delta);
+        let by_step = step.normal.back_substituted(step.delta, step.damping);
         let mut at = 0;
         let mut others: Vec<usize> = (0..p.run.len()).collect();
         for (visit, runs) in self.free_visits() {
@@ -161,7 +161,7 @@ impl Problem<'_> {
             // Constants of these runs move with the step and with the visit.
             let mut delta = step.delta.clone();
             (0..NUISANCES).for_each(|k| delta[(k, 0)] += self.visits[visit].sigma[k] * moves[k]);
-            let own = step.normal.back_substituted(&delta);
+            let own = step.normal.back_substituted(&delta, step.damping);
             runs.iter().zip(&own[at..]).for_each(|(&r, moves)| add(&mut p.run[r], moves));
             others.retain(|r| !runs.contains(r));
             at += runs.len() + 1;

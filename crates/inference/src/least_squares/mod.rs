@@ -61,6 +61,8 @@ pub struct Step<'a> {
     pub values: Vec<f64>,
     /// The step itself in scales, before it was cut; for [`Normal::back_substituted`].
     pub delta: &'a Mat<f64>,
+    /// Damping λ with which it was solved.
+    pub damping: f64,
     /// The equations it solves.
     pub normal: &'a Normal,
 }
@@ -138,7 +140,7 @@ fn descend<P: Problem>(
         };
         let values = Normal::values(parameters, &delta);
         let at_rest = parameters.iter().zip(&values).all(|(p, v)| (v - p.value).abs() < settings.least_move * p.scale);
-        let next = problem.moved(&out.at, &Step { values, delta: &delta, normal });
+        let next = problem.moved(&out.at, &Step { values, delta: &delta, damping: *damping, normal });
         out.trials += 1;
 
         let next = next.map(|next| (problem.cost(&next), next)).filter(|(cost, _)| *cost < out.cost);

@@ -157,12 +157,13 @@ impl Normal {
         (0..delta.nrows()).map(|i| 0.5 * delta[(i, 0)] * self.gradient[(i, 0)]).sum()
     }
 
-    /// Steps of the eliminated numbers that go with a step of the kept ones, block by block.
-    pub fn back_substituted(&self, delta: &Mat<f64>) -> Vec<Vec<f64>> {
+    /// Steps of the eliminated numbers that go with a step of the kept ones, block by block; what each would do alone is
+    /// shortened by `1 + λ` as damping shortens that of the kept ones, so that enough damping leads downhill.
+    pub fn back_substituted(&self, delta: &Mat<f64>, damping: f64) -> Vec<Vec<f64>> {
         let n = delta.nrows();
         let of = |solved: &Mat<f64>, i: usize| {
             let back: f64 = (0..n).map(|j| solved[(i, j)] * delta[(j, 0)]).sum();
-            solved[(i, n)] - back
+            solved[(i, n)] / (1.0 + damping) - back
         };
         self.eliminated.iter().map(|solved| (0..solved.nrows()).map(|i| of(solved, i)).collect()).collect()
     }
@@ -191,10 +192,20 @@ mod tests {
 
         approx::assert_relative_eq!(delta[(0, 0)], whole[(0, 0)], epsilon = 1e-13);
         approx::assert_relative_eq!(delta[(1, 0)], whole[(1, 0)], epsilon = 1e-13);
-        approx::assert_relative_eq!(reduced.back_substituted(&delta)[0][0], whole[(2, 0)], epsilon = 1e-13);
+        approx::assert_relative_eq!(reduced.back_substituted(&delta, 0.0)[0][0], whole[(2, 0)], epsilon = 1e-13);
         let promised: f64 = (0..3).map(|i| 0.5 * whole[(i, 0)] * g[(i, 0)]).sum();
         approx::assert_relative_eq!(reduced.promised(&delta) + reduced.gain, promised, epsilon = 1e-13);
         approx::assert_relative_eq!(reduced.log_determinant, 5.0_f64.ln(), epsilon = 1e-14);
+    }
+
+    /// Far from the minimum of an eliminated number its own step can lead uphill, whatever the kept ones do.
+    #[test]
+    fn damping_shortens_what_an_eliminated_block_does_alone() {
+        let h = Normal::new(faer::mat![[4.0]], faer::mat![[0.0]]);
+        let reduced = h.reduced(&faer::mat![[2.0]], &faer::mat![[1.0, 6.0]]).expect("positive definite");
+        let alone = |damping: f64| reduced.back_substituted(&faer::mat![[0.0]], damping)[0][0];
+        approx::assert_relative_eq!(alone(0.0), 3.0, epsilon = 1e-12);
+        approx::assert_relative_eq!(alone(2.0), 1.0, epsilon = 1e-12);
     }
 
     #[test]

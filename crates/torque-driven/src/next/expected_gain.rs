@@ -146,7 +146,7 @@ fn gap_of(new: &Problem<'_>, tuning: &Columns, rival: &Rival, h: &Hypothesis) ->
     let parameters = Problem::parameters(&rival.point, &rival.free);
     if let Some(delta) = normal.step(&parameters, 0.0) {
         let values = Normal::values(&parameters, &delta);
-        let point = new.advanced(&rival.point, &Step { values, delta: &delta, normal: &normal });
+        let point = new.advanced(&rival.point, &Step { values, delta: &delta, damping: 0.0, normal: &normal });
         let response = new.response(&point, h);
         let moved = cost(new, rival, &point, &response);
         if moved < best.0 {
