@@ -220,6 +220,18 @@ mod tests {
     }
 
     #[test]
+    fn other_ground_goes_on_beyond_turns_until_it_is_usual_again() {
+        // By no more than cold drive trains differ: each part by itself could be one, but the first jumped.
+        let soft = Leg { straight: 1.42 * STRAIGHT, ..Leg::straight(15.0) };
+        let legs = [Leg::straight(30.0), soft, Leg::turn(12.0), soft, Leg::turn(12.0), soft];
+        let all = found(&legs, false);
+        let ends: Vec<f64> = all.iter().map(|c| c.interval[1]).collect();
+        assert!(all.len() == 3 && ends[2] > 98.0, "{ends:?}");
+        // Without a jump it is a cold drive train.
+        assert_eq!(found(&legs[1..], false), []);
+    }
+
+    #[test]
     fn the_way_back_decides() {
         let back = Leg { speed: [-0.24, -0.24], ..Leg::straight(15.0) };
         let legs = [
