@@ -158,8 +158,12 @@ fn jumped(run: &SpeedRun, seen: &[usize], pieces: &[&[usize]], own: &dyn Fn(usiz
         before(first) == Some(last) && own(last) * own(first) > 0.0 && !differs(last, first) && !differs(first, last)
     };
     let on: Vec<usize> = (0..pieces.len().saturating_sub(1)).filter(|&a| goes_on(a)).collect();
-    on.iter().for_each(|&a| jumped[a + 1] |= jumped[a]);
-    on.iter().rev().for_each(|&a| jumped[a] |= jumped[a + 1]);
+    for &a in &on {
+        jumped[a + 1] |= jumped[a];
+    }
+    for &a in on.iter().rev() {
+        jumped[a] |= jumped[a + 1];
+    }
     jumped
 }
 

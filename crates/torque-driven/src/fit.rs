@@ -1,5 +1,6 @@
 //! Gauss–Newton in free run: nuisance parameters, run-to-run deviations and the strengths and shapes of effects.
 
+use std::cell::Cell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -283,7 +284,8 @@ impl Problem<'_> {
             least_move: 0.0,
             ..self.damping()
         };
-        let fit = FreeRunFit { problem: self, hypothesis: h, free: h.free(&self.sizes()), renew };
+        let (free, renewed_at) = (h.free(&self.sizes()), Cell::new(None));
+        let fit = FreeRunFit { problem: self, hypothesis: h, free, renew, renewed_at };
         minimise(&fit, start, &settings).at
     }
 
@@ -330,6 +332,18 @@ struct FreeRunFit<'a> {
     free: Vec<Free>,
     /// Before which step the columns of θ are renewed, at the latest.
     renew: Option<usize>,
+    /// Constants at which this fit renewed them last.
+    renewed_at: Cell<Option<[f64; NUISANCES]>>,
+}
+
+impl FreeRunFit<'_> {
+    /// Whether the columns of θ are those of a place that is no longer near.
+    fn are_old(&self, point: &Point) -> bool {
+        let has_moved = |from: [f64; NUISANCES]| {
+            from.iter().zip(&point.theta).any(|(from, to)| (to - from).abs() > FIT.same_columns)
+        };
+        self.problem.constants_are_loose && self.renewed_at.get().is_none_or(has_moved)
+    }
 }
 
 impl least_squares::Problem for FreeRunFit<'_> {
@@ -345,7 +359,8 @@ impl least_squares::Problem for FreeRunFit<'_> {
 
     fn linearise(&self, at: &mut Fitted, iteration: usize) -> Option<Normal> {
         let p = self.problem;
-        if self.renew == Some(iteration) || (p.constants_are_loose && iteration > 0) {
+        if self.renew == Some(iteration) || (iteration > 0 && self.are_old(&at.point)) {
+            self.renewed_at.set(Some(at.point.theta));
             at.columns = Arc::new(p.nuisance_columns(&at.point, self.hypothesis, &at.response));
         }
         let effects = p.effect_columns(&at.point, self.hypothesis, &at.response);

@@ -8,6 +8,7 @@ use crate::fit::{Fitted, Hypothesis, Problem};
 use crate::redundancy::Redundant;
 use crate::refits;
 use crate::settings::decision::SETTINGS;
+use crate::settings::fit;
 use crate::simulator::Simulator;
 use crate::stand_in::StandIn;
 use crate::visit::Visit;
@@ -16,6 +17,7 @@ use inference::Options;
 use inference::hypothesis::Variant;
 use inference::robust::NINETY;
 use robot_model::effects::{encoder_scale, wheel_radius_mismatch};
+use robot_model::tunable::{Tunable, tunables};
 use std::cmp::Reverse;
 
 /// All that an answer is made of.
@@ -72,10 +74,40 @@ impl Judged<'_> {
             has_fallen = true;
             self.hand_on(&mut out, i, rest, 1.0);
         }
+        self.doubt_nothing_at_a_stop(&mut out, retuned);
         if has_fallen {
             out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         }
         out
+    }
+
+    /// Makes "nothing is missing" no likelier than not where it needs a constant at the end of what a fit may give it, which somebody
+    /// could measure on the robot: the fit asks for more than that, and an effect that is a constant under another name may be what it
+    /// makes up for. Those that are weighed share what "nothing" loses, each up to that as well; the rest is what nobody weighed.
+    fn doubt_nothing_at_a_stop(&self, decision: &mut Decision, retuned: &Fitted) {
+        let most = SETTINGS.retune.at_a_stop;
+        let is_at_a_stop = |(t, moved): (Tunable<f64>, &f64)| {
+            t.between_visits >= SETTINGS.retune.measurable && moved.abs() >= fit::SETTINGS.fit.farthest
+        };
+        let at_a_stop = tunables::<f64>().into_iter().zip(&retuned.point.theta).any(is_at_a_stop);
+        if self.problem.has_references || decision.none <= most || !at_a_stop {
+            return;
+        }
+
+        let is_constant = |v: &Variant| StandIn::of(v, self.problem.robot).is_some();
+        let mut hidden: Vec<&mut Scored> = decision.scored.iter_mut().collect();
+        hidden.retain(|s| s.trial.hypothesis.variants().all(is_constant));
+        let all: f64 = hidden.iter().map(|s| s.probability).sum();
+        if all >= SETTINGS.answer.listed {
+            let lost = decision.none - most;
+            let more = |s: &Scored| (s.probability * lost / all).min((most - s.probability).max(0.0));
+            let shared: f64 = hidden.iter().map(|s| more(s)).sum();
+            for s in hidden {
+                s.probability += more(s);
+            }
+            decision.none = most;
+            decision.unknown += lost - shared;
+        }
     }
 
     /// Hands a share of the probability of a hypothesis on to that with these of its effects alone, which is fitted where nobody has;
@@ -155,6 +187,31 @@ mod tests {
         approx::assert_relative_eq!(none_at(viscous, 5.0), 0.6, epsilon = 1e-12);
         let of_no_constant = of("quadratic_drag");
         approx::assert_relative_eq!(none_at(of_no_constant, 5.0), 1.0, epsilon = 1e-12);
+    }
+
+    #[test]
+    fn nothing_is_no_likelier_than_not_where_a_constant_stops_at_the_end_of_its_range() {
+        let (robot, payload) = (robot(), of("payload"));
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let p = Problem { has_references: false, constants_are_loose: true, ..problem(&robot, &cuts) };
+        let none_at = |id: &str, sigmas: f64| {
+            let mut point = p.origin();
+            point.theta[robot_model::tunable::place_of(id).expect("tunable")] = sigmas;
+            let retuned = p.begin(&Hypothesis::default(), point, None);
+            let scored = vec![scored(&p, &[(payload, 9.0)], 0.1)];
+            let decision = Decision { scored, none: 0.9, ..Decision::default() };
+            let told = Asked::new(&p, decision).judged().without_sizes_of_zero(&retuned);
+            let sum = told.none + told.scored[0].probability + told.unknown;
+            assert!(told.scored[0].probability < 0.5, "{:?}", told.scored[0].probability);
+            approx::assert_relative_eq!(sum, 1.0, epsilon = 1e-12);
+            told.none
+        };
+        assert!(none_at("motor_inertia", 6.0) < 0.5);
+        assert!(none_at("motor_inertia", 5.0) > 0.8);
+        assert!(
+            none_at("slip_at_peak", 6.0) > 0.8,
+            "what makes up for another law of the tyres is no constant to measure"
+        );
     }
 
     #[test]

@@ -38,7 +38,9 @@ impl Retuned {
 
     /// "adhesion from 0.600 to 0.510", of a constant that is not known by itself.
     pub fn values(&self) -> String {
-        let (digits, unit) = (self.digits(), self.unit());
+        // Without an interval, no more than shows a hundredth of the move.
+        let least = 0.01 * (self.to - self.from).abs();
+        let (digits, unit) = (places(self.half_width.max(least)), self.unit());
         let name = self.constant.replace('_', " ");
         format!("{name} from {:.digits$}{unit} to {:.digits$}{unit}", self.from, self.to)
     }
@@ -67,8 +69,13 @@ impl Retuned {
 
     /// Decimal places that show two digits of the interval.
     fn digits(&self) -> usize {
-        (1.0 - self.half_width.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize
+        places(self.half_width)
     }
+}
+
+/// Decimal places that show two digits of a number.
+fn places(x: f64) -> usize {
+    (1.0 - x.abs().max(1e-9).log10().floor()).clamp(0.0, 6.0) as usize
 }
 
 #[cfg(test)]

@@ -147,6 +147,8 @@
     retune: Retune {
         /// Least move, in the sigmas that the robot file states.
         least_sigmas: f64 = 1.0, "1", "definition: within one stated sigma nothing moved";
+        /// Probability of "nothing is missing" at most, without references, where a constant stops at the end of its range.
+        at_a_stop: f64 = 0.45, "1", "guess: no likelier than not";
         /// Least move, in sigmas of what is known of the constant afterwards.
         least_known: f64 = 2.0, "1", "guess";
         /// Least move, in sigmas of what was known of the constant before.
