@@ -20,7 +20,7 @@ use crate::cause::cause;
 use crate::compare::{Judgement, judgement, reported, sigmas};
 use crate::name::{Named, Naming};
 use crate::pieces::GRADE;
-use crate::settings::{NAMING, naming::Answer};
+use crate::settings::{CHANGES, NAMING, naming::Answer};
 
 const ANSWER: Answer = NAMING.answer;
 
@@ -236,9 +236,10 @@ pub(crate) fn largest_side_change(loads: &Loads) -> Option<&SideChange> {
     loads.side_changes.iter().max_by(|a, b| by(a).total_cmp(&by(b)))
 }
 
-/// Slopes inside recordings whose tilt was measured, not inferred from loads.
+/// Slopes inside recordings whose tilt was measured, not inferred from loads, and that are steep beside what wheels resist rolling.
 pub(crate) fn measured_slopes(loads: &Loads) -> impl Iterator<Item = &LoadChange> {
-    loads.changes.found.iter().filter(|c| c.causes == [GRADE] && c.ratio.is_none() && !c.relative)
+    let is_measured = |c: &&LoadChange| c.causes == [GRADE] && c.ratio.is_none() && !c.relative;
+    loads.changes.found.iter().filter(is_measured).filter(|c| c.slope.abs() >= CHANGES.slopes.steep)
 }
 
 /// Classes of causes of what changes inside recordings.

@@ -11,7 +11,7 @@ use robot_model::effects::{gyro_scale, wheel_radius_mismatch};
 use verdict::{Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed};
 
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
-use crate::found::{largest_side_change, longest, strongest};
+use crate::found::{largest_side_change, longest, measured_slopes, strongest};
 use crate::groups::{Disagreement, disagreements};
 use crate::pieces::GRADE;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
@@ -345,7 +345,10 @@ fn named(d: &Diagnosis, loads: &Loads) -> Vec<String> {
     let gyro = loads.gyro.filter(|gyro| gyro.is_off).map(|_| gyro_scale::SPEC.id);
     let drift = loads.drift.as_ref().map(|_| wheel_radius_mismatch::SPEC.id);
     let apart_from_loads: Vec<&str> = [Some(STANDING.id), gyro, drift].into_iter().flatten().collect();
-    let of_loads = |class: &&Vec<String>| class.iter().all(|id| !apart_from_loads.contains(&id.as_str()));
+    let is_measured = measured_slopes(loads).next().is_some();
+    let of_loads = |class: &&Vec<String>| {
+        !(is_measured && **class == [GRADE]) && class.iter().all(|id| !apart_from_loads.contains(&id.as_str()))
+    };
     let of = |id: &String| d.ranked.iter().find(|c| c.effect == *id);
     let mut out = Vec::new();
     for class in d.indistinguishable.iter().filter(of_loads) {

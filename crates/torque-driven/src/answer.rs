@@ -92,6 +92,7 @@ impl Judged<'_> {
             &trial.fitted.point.theta,
         ));
         let [curvature, model_error] = self.margins();
+        let model_error = model_error.hypot(spec.law_error);
         let curvature = curvature * self.misfit(&trial.fitted).sqrt();
         let mut place = None;
         let mut of_disc = ["x", "y", "radius"].into_iter();

@@ -215,6 +215,20 @@ mod tests {
     }
 
     #[test]
+    fn the_size_of_stiction_is_as_unsure_as_the_speed_at_which_it_fades() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let p = problem(&robot, &cuts);
+        let share = |id: &str| {
+            let told = scored(&p, &[(of(id), 3.0)], 1.0);
+            let cause = Asked::new(&p, Decision::default()).judged().cause(&told, 0, 1.0);
+            cause.sigma.expect("a sigma") / 3.0
+        };
+        let [sure, unsure] = ["viscous_friction", "stiction"].map(share);
+        assert!(sure < 0.2 && unsure > 0.3, "{sure} {unsure}");
+    }
+
+    #[test]
     fn an_effect_whose_interval_holds_zero_gives_its_probability_to_nothing() {
         let (robot, viscous) = (robot(), of("viscous_friction"));
         let cuts = [cut(&driven(&robot, &[viscous.dose(&[1.0], None)], 12.0), &cutting())];

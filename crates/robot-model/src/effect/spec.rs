@@ -341,6 +341,8 @@ pub struct EffectSpec {
     /// Size of it that a robot without it may show, because its true laws differ in form from the plant's: one sigma.
     /// References take it in; without them smaller sizes are not told from the form.
     pub form_error: f64,
+    /// Share of its size, one sigma, that numbers leave open which the law holds fixed.
+    pub law_error: f64,
     /// Penalty in nats because few robots have it: 0 for what most studies of such robots name, 3 for what some robots
     /// have, 6 for the exotic and for look-alikes of a commoner effect.
     pub rarity: f64,
@@ -372,6 +374,7 @@ impl EffectSpec {
         sized_by: SizedBy::Itself,
         interest: 0.0,
         form_error: 0.0,
+        law_error: 0.0,
         rarity: 0.0,
         revealed_by: "",
         resembles: "",

@@ -76,6 +76,8 @@ pub(super) const fn degrees(x: f64) -> f64 {
     slopes: Slopes {
         /// Least slope that is reported.
         least: f64 = 1.6, "°", "one of about ten settings tried on the open Husky runs";
+        /// Slope from which on it is a cause beside loads that differ.
+        steep: f64 = 3.0, "°", "guess: it pulls as much as most wheels resist rolling";
         /// For how long at least.
         least_seconds: f64 = 3.0, "s", "one of about ten settings tried on the open Husky runs";
         /// Without an accelerometer the turning rates must see the ramp: from and until, before and after its ends.
