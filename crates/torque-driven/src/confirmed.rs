@@ -10,12 +10,11 @@ use rayon::prelude::*;
 
 use crate::calibrate::problem;
 use crate::decision::{Decision, Scored};
-use crate::fit::{Fitted, Hypothesis, Point, Problem};
+use crate::fit::{Fitted, Hypothesis, Point, Problem, is_at_a_stop};
 use crate::judged::Judged;
 use crate::leave_out::{Model, all_but, fitted_on_others, forecast, without};
 use crate::refits;
 use crate::settings::decision::{Confirmation, Prices, SETTINGS};
-use crate::settings::fit;
 use crate::stand_in::StandIn;
 
 use crate::trial::Trial;
@@ -151,7 +150,7 @@ impl Judged<'_> {
 
 /// How many constants are as far from the robot file as a fit may go.
 fn at_stops(fitted: &Fitted) -> usize {
-    fitted.point.theta.iter().filter(|x| x.abs() >= fit::SETTINGS.fit.farthest).count()
+    fitted.point.theta.iter().filter(|x| is_at_a_stop(**x)).count()
 }
 
 /// By how many sigmas each constant lies from where it is known to be.

@@ -78,6 +78,11 @@ impl Problem<'_> {
     }
 }
 
+/// Whether a constant that moved by so many of its sigmas is as far as a fit may take it.
+pub(crate) fn is_at_a_stop(sigmas: f64) -> bool {
+    sigmas.abs() >= FIT.farthest
+}
+
 /// Where a fit stands.
 #[derive(Clone)]
 pub(crate) struct Point {

@@ -4,11 +4,10 @@ use crate::calibrate::Calibration;
 use crate::case::Case;
 use crate::confirmed::farthest;
 use crate::decision::{Decision, Scored};
-use crate::fit::{Fitted, Hypothesis, Problem};
+use crate::fit::{Fitted, Hypothesis, Problem, is_at_a_stop};
 use crate::redundancy::Redundant;
 use crate::refits;
 use crate::settings::decision::SETTINGS;
-use crate::settings::fit;
 use crate::simulator::Simulator;
 use crate::stand_in::StandIn;
 use crate::visit::Visit;
@@ -86,11 +85,10 @@ impl Judged<'_> {
     /// makes up for. Those that are weighed share what "nothing" loses, each up to that as well; the rest is what nobody weighed.
     fn doubt_nothing_at_a_stop(&self, decision: &mut Decision, retuned: &Fitted) {
         let most = SETTINGS.retune.at_a_stop;
-        let is_at_a_stop = |(t, moved): (Tunable<f64>, &f64)| {
-            t.between_visits >= SETTINGS.retune.measurable && moved.abs() >= fit::SETTINGS.fit.farthest
-        };
-        let at_a_stop = tunables::<f64>().into_iter().zip(&retuned.point.theta).any(is_at_a_stop);
-        if self.problem.has_references || decision.none <= most || !at_a_stop {
+        let stops =
+            |(t, moved): (Tunable<f64>, &f64)| t.between_visits >= SETTINGS.retune.measurable && is_at_a_stop(*moved);
+        let any_stops = tunables::<f64>().into_iter().zip(&retuned.point.theta).any(stops);
+        if self.problem.has_references || decision.none <= most || !any_stops {
             return;
         }
 

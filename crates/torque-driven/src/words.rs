@@ -3,10 +3,10 @@
 use catalogue::answer::{NONE, UNKNOWN};
 use inference::words::{listed, probability, quantity};
 
+use crate::fit::is_at_a_stop;
 use crate::judged::Judged;
 use crate::locate;
 use crate::settings::decision::SETTINGS;
-use crate::settings::fit;
 use verdict::{Cause, Diagnosis, LawOfFile, Retuned, SimulatorConstants, Verdict};
 
 /// Re-tuned constants that get a sentence, at most: the rest is in the JSON.
@@ -151,8 +151,7 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
         let farthest = d.retuned.iter().take(SENTENCES);
         let at_its_end = |constant: &Retuned| {
             let moved = d.tuning.get(&constant.constant).copied().unwrap_or(0.0);
-            let is_end = moved.abs() >= fit::SETTINGS.fit.farthest;
-            if is_end { "; no fit goes further, so that something else may be behind it" } else { "" }
+            if is_at_a_stop(moved) { "; no fit goes further, so that something else may be behind it" } else { "" }
         };
         out.extend(farthest.map(|c| format!("Re-tune: {}{}.", c.sentence(), at_its_end(c))));
     }
