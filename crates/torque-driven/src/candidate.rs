@@ -2,7 +2,7 @@
 
 use faer::Mat;
 use inference::algebra::{eliminate, select, solve_spd};
-use inference::hypothesis::{Onsets, Variant};
+use inference::hypothesis::{Free, Onsets, Variant};
 use robot_model::tunable::COUNT as NUISANCES;
 use statrs::distribution::{ContinuousCDF, Normal as Gaussian};
 
@@ -78,4 +78,11 @@ pub(crate) fn reduced(ground: &Ground<'_>, mut columns: Columns) -> Option<(Mat<
     });
     let m = eliminate(&select(&full, &order), NUISANCES + known)?;
     Some((m.submatrix(0, 0, n, n).to_owned(), m.submatrix(0, n, n, 1).to_owned()))
+}
+
+/// Sizes of an effect whose free runs are compared, of both signs, within its bounds.
+pub(crate) fn sizes_tried(size: &Free) -> impl Iterator<Item = f64> {
+    let Free { unit, bounds: [least, most], .. } = *size;
+    let both = search::SETTINGS.finalists.sizes.into_iter().flat_map(move |times| [times * unit, -times * unit]);
+    both.filter(move |x| (least..=most).contains(x))
 }

@@ -2,12 +2,16 @@
 //!
 //! A search that went astray may rest on effects that stand for the true one: less torque per current for a load that is not in the
 //! middle. Where left-out recordings are forecast no better with the best hypothesis than with the best one that has none of its
-//! effects, neither is believed more than the other.
+//! effects, neither is believed more than the other, but for what the robot file says of the constants that each needs.
 
 use crate::confirmed::left_out_costs;
 use crate::decision::{Decision, Scored};
 use crate::judged::Judged;
 use crate::leave_out::placebo;
+use crate::settings::decision::{Prices, SETTINGS};
+use inference::evidence::logistic;
+
+const PRICES: Prices = SETTINGS.prices;
 
 impl Judged<'_> {
     /// The decision in which the hypothesis that forecasts better shares the probability of the best.
@@ -29,11 +33,25 @@ impl Judged<'_> {
             out.scored.iter().position(|s| s.trial.hypothesis.is_of_the_effects_of(&scored.trial.hypothesis))
         };
         let (Some(first), Some(second)) = (at(best), at(other)) else { return out };
-        let half = 0.5 * (out.scored[first].probability + out.scored[second].probability);
-        out.scored[first].probability = half;
-        out.scored[second].probability = half;
+        let both = out.scored[first].probability + out.scored[second].probability;
+        let [of_best, of_other] = self.shares([best, other]);
+        out.scored[first].probability = of_best * both;
+        out.scored[second].probability = of_other * both;
         out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         out
+    }
+}
+
+impl Judged<'_> {
+    /// Shares of two hypotheses whose motion tells nothing: halves, or where the robot file alone says where constants are, by how far from it
+    /// each needs them. A lighter robot and a stronger motor move alike, but not with the same frictions.
+    fn shares(&self, both: [&Scored; 2]) -> [f64; 2] {
+        if self.problem.has_references || !self.problem.constants_are_loose {
+            return [0.5; 2];
+        }
+        let [best, other] = both.map(|s| -self.problem.prior(&s.trial.fitted.point));
+        let of_best = logistic((best - other) / PRICES.temperature);
+        [of_best, 1.0 - of_best]
     }
 }
 
@@ -67,10 +85,14 @@ mod tests {
 
     /// Probabilities of two effects about drives with quadratic drag, of which the first was found likelier.
     fn weighed(found: [&str; 2]) -> Vec<(&'static str, f64)> {
+        weighed_of(found, false)
+    }
+
+    fn weighed_of(found: [&str; 2], has_references: bool) -> Vec<(&'static str, f64)> {
         let robot = robot();
         let doses = [of("quadratic_drag").dose(&[20.0], None)];
         let cuts = [8.0, 10.0, 12.0].map(|s| cut(&driven(&robot, &doses, s), &cutting()));
-        let p = Problem { has_references: false, constants_are_loose: true, ..problem(&robot, &cuts) };
+        let p = Problem { has_references, constants_are_loose: true, ..problem(&robot, &cuts) };
         let scored = |(id, probability): (&str, f64)| {
             let hypothesis = Hypothesis::single(of(id), Vec::new());
             let size = if id == "quadratic_drag" { 20.0 } else { -0.05 };
@@ -95,7 +117,11 @@ mod tests {
     fn what_forecasts_left_out_drives_no_better_than_another_is_believed_no_more() {
         let (drag, gain) = ("quadratic_drag", "torque_constant");
         assert_eq!(weighed([drag, gain]), [(drag, 0.8), (gain, 0.1)], "the true one stays");
-        let astray = weighed([gain, drag]);
-        assert!(astray.iter().all(|(_, p)| (p - 0.45).abs() < 1e-12), "{astray:?}");
+        // A torque constant that stands for a drag needs frictions that the robot file does not state.
+        let [(first, of_first), (second, of_second)] = weighed([gain, drag])[..] else { panic!("two effects") };
+        assert_eq!((first, second), (drag, gain));
+        assert!(of_first > 0.5 && (of_first + of_second - 0.9).abs() < 1e-12, "{of_first} {of_second}");
+        let known = weighed_of([gain, drag], true);
+        assert!(known.iter().all(|(_, p)| (p - 0.45).abs() < 1e-12), "references teach constants: {known:?}");
     }
 }

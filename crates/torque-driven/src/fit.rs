@@ -276,14 +276,14 @@ impl Problem<'_> {
             * saturation(q / regime, self.cuts[run].segments[segment].count, self.outlier_scale)
     }
 
-    /// Gauss–Newton from `start`: at most `steps`, each damped only where it must be until the cost falls.
+    /// Gauss–Newton from `start`: at most `steps`, or a multiple of these without references, each damped only where it must be until the cost falls.
     ///
     /// The columns of θ are those given; they are renewed before step `renew` if that is reached. Where constants are loose
     /// they move so far that columns are renewed before every later step, and damping is kept from step to step
     /// (Marquardt 1963): fits with old columns stop half-way, where an effect is too small and constants make up for it.
     pub(crate) fn refine(&self, h: &Hypothesis, start: Fitted, steps: usize, renew: Option<usize>) -> Fitted {
         let settings = Settings {
-            iterations: steps,
+            iterations: steps * self.patience(),
             least_fall: FIT.least_gain,
             least_relative_fall: 0.0,
             least_move: 0.0,
@@ -292,6 +292,11 @@ impl Problem<'_> {
         let (free, renewed_at) = (h.free(&self.sizes()), Cell::new(None));
         let fit = FreeRunFit { problem: self, hypothesis: h, free, renew, renewed_at };
         minimise(&fit, start, &settings).at
+    }
+
+    /// Factor of the steps of every fit: from the robot file alone constants have farther to go than from references.
+    fn patience(&self) -> usize {
+        if self.constants_are_loose && !self.has_references { FIT.patience_by_file } else { 1 }
     }
 
     fn damping(&self) -> Settings {

@@ -4,14 +4,14 @@
 //! Without references a fit that begins at the robot file's values can stop half-way, with a part of what is missing in the
 //! effect and a part in the constant: both directions of descent are the same.
 
+use crate::candidate::sizes_tried;
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::settings::fit::{self, Fit};
-use crate::settings::search::{Finalists, HandedOver, SETTINGS};
+use crate::settings::search::{HandedOver, SETTINGS};
 use crate::stand_in::StandIn;
 use crate::trial::Trial;
 
 const HANDED_OVER: HandedOver = SETTINGS.handed_over;
-const FINALISTS: Finalists = SETTINGS.finalists;
 const FIT: Fit = fit::SETTINGS.fit;
 
 /// Hypotheses with one effect more than `h`, which was fitted, and the point from which each is to be fitted: the constant
@@ -64,8 +64,7 @@ pub(crate) fn starts_beyond_stops(problem: &Problem<'_>, h: &Hypothesis, fitted:
             point.effects[at] = value;
             point
         };
-        let sizes = FINALISTS.sizes.iter().flat_map(|times| [times * size.unit, -times * size.unit]);
-        let points = sizes.filter(|x| (size.bounds[0]..=size.bounds[1]).contains(x)).map(of_size);
+        let points = sizes_tried(&size).map(of_size);
         let cost = |point: &Point| problem.begin(&longer, point.clone(), Some(fitted.columns.clone())).cost;
         let best = points.map(|point| (cost(&point), point)).min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, point)| (longer, point))

@@ -326,7 +326,7 @@ mod tests {
     fn without_references_a_fit_begins_where_that_of_all_recordings_ended_too() {
         // Between a tyre that slips by a share of its speed and a contact that creeps with the slip speed lie bad fits.
         let file = robot();
-        let truth = Robot { slip_at_peak: 0.1, rest_speed: 3.0, adhesion: 0.6 * file.adhesion, ..file };
+        let truth = Robot { slip_at_peak: 0.1, rest_speed: 3.0, adhesion: 0.4 * file.adhesion, ..file };
         let cuts = [14.0, 18.0].map(|seconds| cut(&driven(&truth, &[], seconds), &cutting()));
         let p = Problem { has_references: false, constants_are_loose: true, ..problem(&file, &cuts) };
         let origin = p.begin(&Hypothesis::default(), p.origin(), None);

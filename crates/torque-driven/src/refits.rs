@@ -2,11 +2,13 @@
 
 use robot_model::EffectSpec;
 
-use crate::candidate::Candidate;
+use crate::candidate::{Candidate, sizes_tried};
 use crate::fit::{Fitted, Hypothesis, Point, Problem};
 use crate::settings::search::{Finalists, Pairs, SETTINGS};
+use crate::stand_in::StandIn;
 use crate::trial::{Trial, include};
 use crate::{disc, handed_over, later_side, onset};
+use inference::hypothesis::Variant;
 
 const FINALISTS: Finalists = SETTINGS.finalists;
 const PAIRS: Pairs = SETTINGS.pairs;
@@ -66,11 +68,9 @@ impl Starts<'_> {
     pub(crate) fn size_by_free_run(self, problem: &Problem<'_>, h: &Hypothesis, tangent: &[f64]) -> Option<Vec<f64>> {
         let (variant, _) = h.parts.first().filter(|_| self.is_far && h.parts.len() == 1)?;
         let [size, ..] = variant.free(&problem.sizes())[..] else { return None };
-        let [least, most] = size.bounds;
         let with = |value: f64| -> Vec<f64> { std::iter::once(value).chain(tangent.iter().skip(1).copied()).collect() };
         let cost = |values: &[f64]| begin(problem, h, &self.origin.point, values, self.origin).cost;
-        let sizes = FINALISTS.sizes.iter().flat_map(|times| [times * size.unit, -times * size.unit]);
-        let tried = sizes.filter(|x| (least..=most).contains(x)).map(with).map(|values| (cost(&values), values));
+        let tried = sizes_tried(&size).map(with).map(|values| (cost(&values), values));
         let (own, best) = tried.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (own < cost(tangent)).then_some(best)
     }
@@ -99,6 +99,31 @@ pub(crate) fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Tria
     let mut trial = refit(problem, trial.hypothesis, trial.fitted, steps, Some(0));
     disc::scan(problem, &mut trial);
     trial
+}
+
+/// Fits effects that are a constant under another name again, from the constants of the best single effect, each with the size
+/// whose free run costs least there: what is nearly alike (a torque constant and an extra mass) is compared where both have arrived.
+pub(crate) fn exchange(problem: &Problem<'_>, singles: &mut [Trial]) {
+    let [best, rivals @ ..] = singles else { return };
+    let is_close = |rival: &&mut Trial| {
+        let is_constant = |variant: &Variant| StandIn::of(variant, problem.robot).is_some();
+        rival.fitted.cost < best.fitted.cost + FINALISTS.close && rival.hypothesis.variants().all(is_constant)
+    };
+    for rival in rivals.iter_mut().filter(is_close).take(FINALISTS.most_close) {
+        let h = &rival.hypothesis;
+        let ([_, others @ ..], [size, ..]) = (rival.fitted.point.effects.as_slice(), &h.free(&problem.sizes())[..])
+        else {
+            continue;
+        };
+        let with = |value: f64| begin(problem, h, &best.fitted.point, &[&[value], others].concat(), &best.fitted);
+        let starts = sizes_tried(size).map(with);
+        let Some(start) = starts.min_by(|a, b| a.cost.total_cmp(&b.cost)) else { continue };
+        let again = refit(problem, h.clone(), start, FINALISTS.more_steps, Some(0));
+        if again.fitted.cost < rival.fitted.cost {
+            *rival = again;
+        }
+    }
+    best_first(singles);
 }
 
 /// Adds effects that may hide in a constant which was re-tuned far beside `h`, each in the better of both fits.
@@ -192,6 +217,50 @@ mod tests {
         assert_eq!(starts.size_by_free_run(&p, &h, &[14.0]), None, "nothing costs less than the truth");
         let near = Starts { is_far: false, ..starts };
         assert_eq!(near.size_by_free_run(&p, &h, &[0.3]), None);
+    }
+
+    #[test]
+    fn what_looks_like_the_best_effect_is_fitted_again_from_its_constants() {
+        let robot = robot();
+        let blank = problem(&robot, &[]);
+        let of = |id: &str| -> Hypothesis {
+            let is_whole = |v: &Variant| v.spec().id == id && v.place == Place::Whole;
+            Hypothesis::single(blank.variants().into_iter().find(is_whole).expect("in the catalogue"), Vec::new())
+        };
+        let (payload, torque) = (of("payload"), of("torque_constant"));
+        let cuts = [cut(&driven(&robot, &payload.doses(&[14.0], 0), 12.0), &cutting())];
+        let p = Problem { has_references: false, constants_are_loose: true, ..problem(&robot, &cuts) };
+
+        // As a fit that went astray left it, beside the truth.
+        let best =
+            Trial { fitted: p.begin(&payload, Point { effects: vec![14.0], ..p.origin() }, None), hypothesis: payload };
+        let mut astray = p.begin(&torque, Point { effects: vec![0.0], ..p.origin() }, None);
+        astray.cost = best.fitted.cost + 0.9 * FINALISTS.close;
+        let mut singles = vec![best, Trial { fitted: astray.clone(), hypothesis: torque }];
+        exchange(&p, &mut singles);
+        assert_eq!(singles[0].hypothesis.ids(), ["payload"]);
+        let again = &singles[1].fitted;
+        assert!(again.cost < astray.cost && again.point.effects[0] < -0.05, "{} {:?}", again.cost, again.point.effects);
+
+        // What is no constant is not tried.
+        let mut pull = vec![singles[0].clone(), Trial { fitted: astray.clone(), hypothesis: of("constant_pull") }];
+        exchange(&p, &mut pull);
+        approx::assert_relative_eq!(pull[1].fitted.cost, astray.cost);
+    }
+
+    #[test]
+    fn without_references_a_fit_takes_more_steps() {
+        let robot = robot();
+        let cuts = [cut(&driven(&robot, &[], 12.0), &cutting())];
+        let known = Problem { constants_are_loose: true, ..problem(&robot, &cuts) };
+        let by_file = Problem { has_references: false, ..known.clone() };
+        let mut point = known.origin();
+        point.theta[tunables::<f64>().iter().position(|t| t.id == "viscous").expect("tunable")] += 4.0;
+        let left = |p: &Problem<'_>| {
+            let start = p.begin(&Hypothesis::default(), point.clone(), None);
+            p.refine(&Hypothesis::default(), start, 1, None).cost
+        };
+        assert!(left(&by_file) < 0.5 * left(&known), "{} {}", left(&by_file), left(&known));
     }
 
     #[test]

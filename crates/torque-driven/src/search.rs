@@ -8,8 +8,8 @@ use crate::candidate::Candidate;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::nothing::{is_far, without_effect};
 use crate::refits::{
-    Places, Starts, best_first, better, by_id, converge_members, converge_wholes, include_handed_over, polish,
-    refit_from,
+    Places, Starts, best_first, better, by_id, converge_members, converge_wholes, exchange, include_handed_over,
+    polish, refit_from,
 };
 use crate::screen::screen;
 use crate::settings::search::{Finalists, Retuning, SETTINGS};
@@ -93,6 +93,9 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
         *trial = polish(problem, trial, FINALISTS.more_steps);
     }
     best_first(&mut singles);
+    if problem.constants_are_loose && !problem.has_references {
+        exchange(problem, &mut singles);
+    }
 
     other_side::include(problem, &mut singles);
     later_side::include(problem, &origin, &mut singles);

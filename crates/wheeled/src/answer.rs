@@ -1,12 +1,13 @@
 //! Findings as a verdict in sentences.
 
 use hierarchical_fit::Wording;
-use verdict::Diagnosis;
+use verdict::{Cause, Diagnosis};
 
 use crate::diagnose::Findings;
 use crate::left_out::{LENGTHS, Table};
 use crate::settings::SETTINGS;
 use catalogue::odometry::{RADIUS_OF_ALL_WHEELS, RADIUS_OF_ONE_WHEEL};
+use catalogue::wheeled::GROUND_SLOPE;
 
 /// The verdict of findings, with the forecasts of drives that were left out.
 pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Diagnosis {
@@ -27,6 +28,7 @@ pub fn diagnosis(findings: &Findings, table: &Table, has_references: bool) -> Di
     out.sentences = found.sentences(&words, &out);
     out.sentences.extend(forecast_sentence(table));
     out.limits.splice(0..0, limits(findings, has_references));
+    out.limits.extend(of_a_slope(&out.ranked));
     out
 }
 
@@ -44,6 +46,15 @@ fn forecast_sentence(table: &Table) -> Option<String> {
             table.by_drive.len(),
             shown.join(", ")
         )
+    })
+}
+
+/// What pulls like a slope, where one is among the causes: this comparison has no accelerometer, which would feel the tilt.
+fn of_a_slope(causes: &[Cause]) -> Option<String> {
+    causes.iter().any(|cause| cause.effect == GROUND_SLOPE.id).then(|| {
+        "slopes are told from the motion alone: what else pulls in one direction of the floor, whichever way the robot looks, looks like \
+         one: a wind from one direction (which shows as drag too), or a long cable"
+            .to_owned()
     })
 }
 
