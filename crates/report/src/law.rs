@@ -80,7 +80,7 @@ fn of_events(found: &FoundEvents) -> Vec<(&'static str, String)> {
 fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
     let mut place = one_of(&found.place, &found.places_alike);
     if let Some((next, worse)) = &found.next_place {
-        place = format!("{place} [next place: {next}, {worse:.0} nats worse]");
+        place = format!("{place} [next likeliest place: {next}, whose log-likelihood is {worse:.0} nats lower]");
     }
     let unit = if found.unit == "1" { String::new() } else { format!(" {}", found.unit) };
     vec![
@@ -88,8 +88,8 @@ fn of_place(found: &FoundPlace) -> Vec<(&'static str, String)> {
         (
             "how much",
             format!(
-                "{:.2}{unit} rms{}; an input there that is another one every 0.1 s leaves {:.0} % of \
-                 what re-tuning leaves unexplained",
+                "{:.2}{unit} rms{}; an input there that the fit may choose anew every 0.1 s leaves {:.0} % of \
+                 what re-tuned constants leave unexplained",
                 found.size,
                 in_references(found.in_references.map(|share| format!("{:.0} % of its mean square", 100.0 * share))),
                 100.0 * found.left.max(0.0)
@@ -153,7 +153,7 @@ fn of_law(law: &FoundLaw) -> Vec<(&'static str, String)> {
 fn place(law: &FoundLaw) -> String {
     let mut out = one_of(&law.place, &law.places_alike);
     if let Some((next, worse)) = &law.next_place {
-        out = format!("{out} [next place: {next}, {worse:.0} nats worse]");
+        out = format!("{out} [next likeliest place: {next}, whose log-likelihood is {worse:.0} nats lower]");
     }
     out
 }

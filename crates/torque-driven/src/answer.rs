@@ -86,7 +86,7 @@ impl Judged<'_> {
         let sigmas = self.sigmas(&trial.hypothesis, &trial.fitted);
         let spec = variant.spec();
         let strengths = variant.strengths().len();
-        let moved = stand_in::sigma_of_size(self.problem, variant, e[0]).hypot(stand_in::mass_of_motors(
+        let moved = stand_in::sigma_of_size(self.problem, variant, e[0]).hypot(stand_in::mass_elsewhere(
             self.problem,
             variant,
             &trial.fitted.point.theta,

@@ -43,8 +43,8 @@ impl Judged<'_> {
 }
 
 impl Judged<'_> {
-    /// Shares of two hypotheses whose motion tells nothing: halves, or where the robot file alone says where constants are, by how far from it
-    /// each needs them. A lighter robot and a stronger motor move alike, but not with the same frictions.
+    /// Shares of two hypotheses whose motion tells nothing: halves, or without references, by how far from where the robot file states them to
+    /// be each needs them. A lighter robot and a stronger motor move alike, but not with the same frictions.
     fn shares(&self, both: [&Scored; 2]) -> [f64; 2] {
         if self.problem.has_references || !self.problem.constants_are_loose {
             return [0.5; 2];
@@ -85,14 +85,14 @@ mod tests {
 
     /// Probabilities of two effects about drives with quadratic drag, of which the first was found likelier.
     fn weighed(found: [&str; 2]) -> Vec<(&'static str, f64)> {
-        weighed_of(found, false)
+        weighed_of(found, true)
     }
 
-    fn weighed_of(found: [&str; 2], has_references: bool) -> Vec<(&'static str, f64)> {
+    fn weighed_of(found: [&str; 2], constants_are_loose: bool) -> Vec<(&'static str, f64)> {
         let robot = robot();
         let doses = [of("quadratic_drag").dose(&[20.0], None)];
         let cuts = [8.0, 10.0, 12.0].map(|s| cut(&driven(&robot, &doses, s), &cutting()));
-        let p = Problem { has_references, constants_are_loose: true, ..problem(&robot, &cuts) };
+        let p = Problem { has_references: !constants_are_loose, constants_are_loose, ..problem(&robot, &cuts) };
         let scored = |(id, probability): (&str, f64)| {
             let hypothesis = Hypothesis::single(of(id), Vec::new());
             let size = if id == "quadratic_drag" { 20.0 } else { -0.05 };
@@ -121,7 +121,10 @@ mod tests {
         let [(first, of_first), (second, of_second)] = weighed([gain, drag])[..] else { panic!("two effects") };
         assert_eq!((first, second), (drag, gain));
         assert!(of_first > 0.5 && (of_first + of_second - 0.9).abs() < 1e-12, "{of_first} {of_second}");
-        let known = weighed_of([gain, drag], true);
-        assert!(known.iter().all(|(_, p)| (p - 0.45).abs() < 1e-12), "references teach constants: {known:?}");
+        let known = weighed_of([gain, drag], false);
+        assert!(
+            known.iter().all(|(_, p)| (p - 0.45).abs() < 1e-12),
+            "constants that are held move in neither: {known:?}"
+        );
     }
 }

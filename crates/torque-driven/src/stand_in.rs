@@ -113,15 +113,16 @@ pub(crate) fn sigma_of_size(problem: &Problem<'_>, variant: &Variant, size: f64)
     if problem.has_references { moved().unwrap_or(0.0) } else { 0.0 }
 }
 
-/// Mass that the motors' inertia took over from an extra mass or gave to it, kg, as one sigma of its size: in straight driving
-/// `2 J / r²` is a mass, and only how the robot scrubs and turns tells them apart, which no plant has quite as its robot. Where
-/// references hold the inertia it takes over nothing.
-pub(crate) fn mass_of_motors(problem: &Problem<'_>, variant: &Variant, theta: &[f64; NUISANCES]) -> f64 {
-    if problem.has_references || variant.spec().id != "payload" {
+/// Mass that constants took over from an extra mass or gave to it, kg, as one sigma of its size: the mass itself, and the motors' inertia,
+/// since in straight driving `2 J / r²` is a mass, and only how the robot scrubs and turns tells them apart, which no plant has quite as its
+/// robot. Where references hold the constants they take over nothing.
+pub(crate) fn mass_elsewhere(problem: &Problem<'_>, variant: &Variant, theta: &[f64; NUISANCES]) -> f64 {
+    if !problem.constants_are_loose || variant.spec().id != "payload" {
         return 0.0;
     }
-    let moved = tuned(problem.robot, &problem.sigma, theta).motor_inertia - problem.robot.motor_inertia;
-    2.0 * moved.abs() / problem.robot.wheel_radius.powi(2)
+    let [now, before] = [theta, &problem.centre].map(|at| tuned(problem.robot, &problem.sigma, at));
+    let of_motors = 2.0 * (now.motor_inertia - before.motor_inertia) / problem.robot.wheel_radius.powi(2);
+    of_motors.hypot(now.mass - before.mass)
 }
 
 /// Whether an effect of the catalogue is this constant under another name.
@@ -212,23 +213,27 @@ mod tests {
     }
 
     #[test]
-    fn without_references_an_extra_mass_is_as_unsure_as_what_the_motors_inertia_took_over() {
+    fn where_constants_are_loose_an_extra_mass_is_as_unsure_as_what_they_took_over() {
         let robot = robot();
         let cuts = [cut(&driven(&robot, &[], 8.0), &cutting())];
         let mut problem = problem(&robot, &cuts);
-        problem.has_references = false;
+        problem.constants_are_loose = true;
         let forms = problem.variants();
         let of = |id: &str| forms.iter().find(|v| v.spec().id == id).expect("in the catalogue");
         let mut theta = [0.0; NUISANCES];
-        assert_eq!(mass_of_motors(&problem, of("payload"), &theta), 0.0);
+        assert_eq!(mass_elsewhere(&problem, of("payload"), &theta), 0.0);
         let place = constant("motor_inertia");
         theta[place] = 4.0;
         let grown = robot.motor_inertia * ((4.0 * problem.sigma[place]).exp() - 1.0);
         let mass = 2.0 * grown / robot.wheel_radius.powi(2);
-        approx::assert_relative_eq!(mass_of_motors(&problem, of("payload"), &theta), mass, max_relative = 1e-9);
-        assert_eq!(mass_of_motors(&problem, of("torque_constant"), &theta), 0.0);
-        problem.has_references = true;
-        assert_eq!(mass_of_motors(&problem, of("payload"), &theta), 0.0, "references hold the inertia");
+        approx::assert_relative_eq!(mass_elsewhere(&problem, of("payload"), &theta), mass, max_relative = 1e-9);
+        assert_eq!(mass_elsewhere(&problem, of("torque_constant"), &theta), 0.0);
+        theta[constant("mass")] = 2.0;
+        let kg = robot.mass * ((2.0 * problem.sigma[constant("mass")]).exp() - 1.0);
+        let both = mass.hypot(kg);
+        approx::assert_relative_eq!(mass_elsewhere(&problem, of("payload"), &theta), both, max_relative = 1e-9);
+        problem.constants_are_loose = false;
+        assert_eq!(mass_elsewhere(&problem, of("payload"), &theta), 0.0, "references hold the constants");
     }
 
     #[test]
