@@ -40,11 +40,9 @@ impl Judged<'_> {
         out.scored.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         out
     }
-}
 
-impl Judged<'_> {
-    /// Shares of two hypotheses whose motion tells nothing: halves, or without references, by how far from where the robot file states them to
-    /// be each needs them. A lighter robot and a stronger motor move alike, but not with the same frictions.
+    /// Shares of two hypotheses that forecasts do not tell apart: halves, and without references by how far each moves constants from where
+    /// the robot file has them. A heavier robot and a weaker motor move alike, but not with the same frictions.
     fn shares(&self, both: [&Scored; 2]) -> [f64; 2] {
         if self.problem.has_references || !self.problem.constants_are_loose {
             return [0.5; 2];
@@ -88,6 +86,7 @@ mod tests {
         weighed_of(found, true)
     }
 
+    /// The same where constants are loose, as without references, or held.
     fn weighed_of(found: [&str; 2], constants_are_loose: bool) -> Vec<(&'static str, f64)> {
         let robot = robot();
         let doses = [of("quadratic_drag").dose(&[20.0], None)];

@@ -276,7 +276,8 @@ impl Problem<'_> {
             * saturation(q / regime, self.cuts[run].segments[segment].count, self.outlier_scale)
     }
 
-    /// Gauss–Newton from `start`: at most `steps`, or a multiple of these without references, each damped only where it must be until the cost falls.
+    /// Gauss–Newton from `start`: at most `steps`, or a multiple of these without references, each damped only where it must be
+    /// until the cost falls.
     ///
     /// The columns of θ are those given; they are renewed before step `renew` if that is reached. Where constants are loose
     /// they move so far that columns are renewed before every later step, and damping is kept from step to step

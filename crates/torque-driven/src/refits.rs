@@ -103,7 +103,7 @@ pub(crate) fn polish(problem: &Problem<'_>, trial: &Trial, steps: usize) -> Tria
 
 /// Fits effects that are a constant under another name again, from the constants of the best single effect, each with the size
 /// whose free run costs least there: what is nearly alike (a torque constant and an extra mass) is compared where both have arrived.
-pub(crate) fn exchange(problem: &Problem<'_>, singles: &mut [Trial]) {
+pub(crate) fn refit_from_the_best(problem: &Problem<'_>, singles: &mut [Trial]) {
     let [best, rivals @ ..] = singles else { return };
     let is_close = |rival: &&mut Trial| {
         let is_constant = |variant: &Variant| StandIn::of(variant, problem.robot).is_some();
@@ -237,14 +237,14 @@ mod tests {
         let mut astray = p.begin(&torque, Point { effects: vec![0.0], ..p.origin() }, None);
         astray.cost = best.fitted.cost + 0.9 * FINALISTS.close;
         let mut singles = vec![best, Trial { fitted: astray.clone(), hypothesis: torque }];
-        exchange(&p, &mut singles);
+        refit_from_the_best(&p, &mut singles);
         assert_eq!(singles[0].hypothesis.ids(), ["payload"]);
         let again = &singles[1].fitted;
         assert!(again.cost < astray.cost && again.point.effects[0] < -0.05, "{} {:?}", again.cost, again.point.effects);
 
         // What is no constant is not tried.
         let mut pull = vec![singles[0].clone(), Trial { fitted: astray.clone(), hypothesis: of("constant_pull") }];
-        exchange(&p, &mut pull);
+        refit_from_the_best(&p, &mut pull);
         approx::assert_relative_eq!(pull[1].fitted.cost, astray.cost);
     }
 

@@ -8,8 +8,8 @@ use crate::candidate::Candidate;
 use crate::fit::{Hypothesis, Point, Problem};
 use crate::nothing::{is_far, without_effect};
 use crate::refits::{
-    Places, Starts, best_first, better, by_id, converge_members, converge_wholes, exchange, include_handed_over,
-    polish, refit_from,
+    Places, Starts, best_first, better, by_id, converge_members, converge_wholes, include_handed_over, polish,
+    refit_from, refit_from_the_best,
 };
 use crate::screen::screen;
 use crate::settings::search::{Finalists, Retuning, SETTINGS};
@@ -94,7 +94,7 @@ pub(crate) fn search(problem: &Problem<'_>, known: &[Trial], progress: &dyn Fn(&
     }
     best_first(&mut singles);
     if problem.constants_are_loose && !problem.has_references {
-        exchange(problem, &mut singles);
+        refit_from_the_best(problem, &mut singles);
     }
 
     other_side::include(problem, &mut singles);

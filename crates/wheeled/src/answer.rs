@@ -80,3 +80,15 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slope_comes_with_what_pulls_like_one_and_a_drag_does_not() {
+        let of = |id: &str| of_a_slope(&[Cause::plain(id, "a cause", 0.9)]);
+        assert!(of(GROUND_SLOPE.id).is_some_and(|limit| limit.contains("a wind from one direction")));
+        assert_eq!(of("body_drag"), None);
+    }
+}
