@@ -191,11 +191,11 @@ pub(crate) fn best_first(trials: &mut [Trial]) {
 
 #[cfg(test)]
 mod tests {
-    use robot_model::tunable::tunables;
     use testing::robot;
 
     use super::*;
     use crate::nothing::retune;
+    use crate::run_numbers::constant;
     use crate::testing::{cutting, driven, problem};
     use crate::windows::cut;
     use inference::hypothesis::{Dose, Place, Variant};
@@ -255,7 +255,7 @@ mod tests {
         let known = Problem { constants_are_loose: true, ..problem(&robot, &cuts) };
         let by_file = Problem { has_references: false, ..known.clone() };
         let mut point = known.origin();
-        point.theta[tunables::<f64>().iter().position(|t| t.id == "viscous").expect("tunable")] += 4.0;
+        point.theta[constant("viscous")] += 4.0;
         let left = |p: &Problem<'_>| {
             let start = p.begin(&Hypothesis::default(), point.clone(), None);
             p.refine(&Hypothesis::default(), start, 1, None).cost
@@ -281,7 +281,7 @@ mod tests {
         let single = Hypothesis::single(drag, Vec::new());
         let start = loose.begin(&single, Point { effects: vec![size(&drag)], ..loose.origin() }, None);
         let single = Trial { fitted: retune(&loose, &single, start), hypothesis: single };
-        let viscous_at = tunables::<f64>().iter().position(|t| t.id == "viscous").expect("tunable");
+        let viscous_at = constant("viscous");
         assert!(single.fitted.point.theta[viscous_at] > 1.6, "{:?}", single.fitted.point.theta);
 
         // Both, as a fit that went astray left them.
