@@ -20,6 +20,9 @@ pub mod wheeled;
 
 pub use cause::CauseSpec;
 
+/// Lengths of a robot: no load, wear or ground changes them, so that what an owner states of them holds.
+pub const LENGTHS: [&CauseSpec; 2] = [&car::WHEELBASE, &odometry::WHEEL_DISTANCE];
+
 /// What is known about a name.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry {

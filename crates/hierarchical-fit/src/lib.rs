@@ -8,6 +8,7 @@
 //! * `descent`, `fit`: equations of every drive and steps down them; constants with a deviation of each drive, and how drives scatter.
 //! * `cause`, `weigh`, `name`: what may be wrong, the evidence for it, and which causes are named.
 //! * `answered`, `look_alikes`, `solve`: fits with what is named, the first causes against others that do much the same.
+//! * `believable`: answers without a cause that asks for what no owner would believe.
 //! * `references`: what references say before the recordings, and whether they lack the same.
 //! * `stretches`, `onset`: equations in the course of time, and causes that begin or end while the drives go on: what may be (`hypotheses`),
 //!   all of it by one set of equations (`scan`), the best by their own (`search`) about fits of the constants with and without them
@@ -23,6 +24,7 @@
 
 mod ahead;
 mod answered;
+mod believable;
 mod beside;
 mod cause;
 mod corrected;

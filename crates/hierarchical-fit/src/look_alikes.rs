@@ -100,7 +100,7 @@ pub(crate) fn exchanged<D: Observed>(
 }
 
 /// By how many sigmas of what was known these constants moved, the most of them.
-fn sigmas(prior: &Prior, answer: &Answered, constants: impl IntoIterator<Item = usize>) -> f64 {
+pub(crate) fn sigmas(prior: &Prior, answer: &Answered, constants: impl IntoIterator<Item = usize>) -> f64 {
     let of = |k: usize| (answer.fit.theta[k] - prior.mean[k]).abs() / prior.covariance[(k, k)].sqrt();
     constants.into_iter().map(of).fold(0.0, f64::max)
 }

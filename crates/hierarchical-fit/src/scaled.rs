@@ -6,6 +6,8 @@ use crate::observed::{Kind, Observed, Row};
 #[derive(Clone)]
 pub(crate) struct Scaled {
     plain: Vec<f64>,
+    /// By how much more, in its exponent, a second constant scales a number that is larger by one; `None` where it scales nothing.
+    second: Option<f64>,
     shown: Vec<f64>,
     rows: Vec<Row>,
 }
@@ -29,12 +31,22 @@ impl Scaled {
         self
     }
 
+    /// The same where a second constant scales as well, and by so much more for a number that is larger by one.
+    pub(crate) fn with_second(self, uneven: f64) -> Self {
+        Self { second: Some(uneven), ..self }
+    }
+
+    /// Factor on a number.
+    fn factor(&self, plain: f64, theta: &[f64]) -> f64 {
+        (theta[0] + self.second.map_or(0.0, |uneven| theta[1] * (1.0 + uneven * plain))).exp()
+    }
+
     fn of(rows: usize, step: f64, scale: impl Fn(f64) -> f64) -> Self {
         let plain: Vec<f64> = (0..rows).map(|k| (k % 20 + 1) as f64 / 10.0).collect();
         let time = |k: usize| step * k as f64;
         let row = |k: usize| Row { kind: Kind::Encoder, time: time(k), is_moving: true, weight: 1.0 };
         let shown = plain.iter().enumerate().map(|(k, plain)| scale(time(k)) * plain).collect();
-        Self { plain, shown, rows: (0..rows).map(row).collect() }
+        Self { plain, second: None, shown, rows: (0..rows).map(row).collect() }
     }
 }
 
@@ -60,11 +72,14 @@ impl Observed for Scaled {
     }
 
     fn errors(&self, (): &(), theta: &[f64]) -> Vec<f64> {
-        self.shown.iter().zip(&self.plain).map(|(shown, plain)| theta[0].exp() * plain - shown).collect()
+        self.shown.iter().zip(&self.plain).map(|(shown, plain)| self.factor(*plain, theta) * plain - shown).collect()
     }
 
     fn columns(&self, (): &(), theta: &[f64]) -> Vec<Vec<f64>> {
-        vec![self.plain.iter().map(|plain| theta[0].exp() * plain).collect()]
+        let first = || self.plain.iter().map(|plain| self.factor(*plain, theta) * plain);
+        let second =
+            self.second.map(|uneven| first().zip(&self.plain).map(|(f, plain)| f * (1.0 + uneven * plain)).collect());
+        std::iter::once(first().collect()).chain(second).collect()
     }
 
     fn sizes(&self) -> Vec<f64> {

@@ -107,6 +107,10 @@
         /// Of two that cannot be told apart, that leads which moves constants by so many times fewer sigmas; causes that move one by so many
         /// times more sigmas than re-tuning are dropped where they are not needed.
         nearer: f64 = 3.0, "1", "guess; owners measure badly, but not that badly";
+        /// Sigmas with which its owner knows a length that a cause may move it by before an answer without that cause is looked for.
+        believed: f64 = 10.0, "1", "guess; one that was read off wrongly or is of another robot lies beyond, and is seen in the errors";
+        /// Lengths for which that is done, at most.
+        disbelieved: usize = 2, "1", "guess; each takes as long as the answer";
     }
 
     /// Causes that begin or end while the drives go on.

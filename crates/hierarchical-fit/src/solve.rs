@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use crate::answered::{Answered, is_moved, scores};
+use crate::believable::believable;
 use crate::cause::Cause;
 use crate::data::{Data, Prior};
 use crate::descent::sessions;
@@ -40,14 +41,16 @@ pub struct Solved<D: Observed> {
 }
 
 /// Fits drives and names causes, after references in which the model was right; `None` where equations have no solution.
-pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, causes: Vec<Cause>) -> Option<Solved<D>> {
+pub fn solve<D: Observed>(data: Data<D>, references: Option<&Data<D>>, mut causes: Vec<Cause>) -> Option<Solved<D>> {
     let of_file = data.prior();
     let before = known(references, of_file.clone(), &causes)?;
     let (best, retuned) = answered(&data, &before.prior, &causes, before.prior.mean.as_slice().to_vec())?;
     let best = exchanged(&data, &before.prior, &causes, &retuned, best)?;
-    let (known, best, retuned) = match references {
-        Some(right) => weighed_with((&data, right), (&of_file, &causes), before, (best, retuned))?,
-        None => (before, best, retuned),
+    let (known, best, retuned) = if let Some(right) = references {
+        weighed_with((&data, right), (&of_file, &causes), before, (best, retuned))?
+    } else {
+        let (best, retuned) = believable(&data, &before.prior, &mut causes, (best, retuned))?;
+        (before, best, retuned)
     };
     let Known { prior, left_of_references, in_all, .. } = known;
     let (fit, named) = told((&data, &prior, references.is_some()), &causes, best, &retuned)?;
@@ -89,6 +92,11 @@ impl<D: Observed> Solved<D> {
         let retuned = moved(&self.retuned, prior, &|fit| Some(of_none(fit)?.mean))?;
         let mut named = of_named(&fit)?;
         named.retuned = of_none(&retuned)?;
+        // The equations name anew where they lead, which nothing has been compared with yet.
+        let [led, stood] = [named.posterior.mean.as_slice(), &fit.theta].map(|at| data.share(at));
+        if led > (1.0 + SETTINGS.naming.leaves_more) * stood {
+            named.posterior.mean = DVector::from_column_slice(&fit.theta);
+        }
         drop_unmoved(causes, prior, &mut named);
         let left_of_references = self.left_of_references;
         let fit =
