@@ -5,6 +5,7 @@
 //! motions, so that what follows is as good as before.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use inference::robust::{median, quantile, sorted};
 
@@ -31,21 +32,17 @@ pub fn without_jumps(time: &[f64], pose: &mut [[f64; 3]]) -> Option<String> {
     if jumps.is_empty() || jumps.len() as f64 > RULES.most * duration {
         return None;
     }
-    let first = Jump { time: time[seen[jumps[0] + 1]], way: steps[jumps[0]].1 };
-    let count = jumps.len();
 
-    // A row or few that are elsewhere.
-    let mut unseen = Vec::new();
+    let mut unseen: Vec<usize> = Vec::new();
     for &jump in &jumps {
-        let back = (1..=RULES.lone).find(|n| {
-            let next = seen.get(jump + 1 + n);
-            // It is where it would be had it not jumped, whatever time has passed.
-            next.is_some_and(|&next| !limits.are_passed(&(limits.apart, between(pose, seen[jump], next).1)))
-        });
-        if let Some(rows) = back.filter(|_| unseen.last().is_none_or(|last| *last <= seen[jump])) {
-            unseen.extend_from_slice(&seen[jump + 1..=jump + rows]);
+        let lone = rows_before(&steps, jump, |a, b| between(pose, seen[a], seen[b]))
+            .or_else(|| rows_after(&limits, (jump, seen.len()), |a, b| between(pose, seen[a], seen[b])));
+        // Where these rows come back they do not leave anew.
+        if let Some(rows) = lone.filter(|_| !unseen.contains(&seen[jump])) {
+            unseen.extend_from_slice(&seen[rows]);
         }
     }
+    unseen.sort_unstable();
     for &row in &unseen {
         pose[row] = [f64::NAN; 3];
     }
@@ -53,40 +50,84 @@ pub fn without_jumps(time: &[f64], pose: &mut [[f64; 3]]) -> Option<String> {
     steps = seen.windows(2).map(|pair| between(pose, pair[0], pair[1])).collect();
 
     // The others go on as the robot moved before.
+    let mut jumped: Vec<Jump> = Vec::new();
     let mut frame = Frame::default();
     for k in 0..steps.len() {
         let row = seen[k + 1];
         let passed = limits.passed(&steps[k]);
         if passed.contains(&true) {
+            jumped.push(Jump { time: time[row], way: steps[k].1, passed });
             steps[k].1 = before(&steps[..k]).map(|rate| rate * steps[k].0);
             frame.move_to(passed, pose[row], placed(pose[seen[k]], steps[k].1));
         }
         pose[row] = frame.of(pose[row]);
     }
-    Some(first.told(count))
+    let elsewhere = unseen.first().map(|&row| elsewhere(unseen.len(), time[row]));
+    Some([elsewhere, told(&jumped)].into_iter().flatten().collect::<Vec<_>>().join("; "))
 }
 
-/// The first jump of a drive.
+/// Rows before a jump that are elsewhere, of which it is the way back: without them the robot goes on as before. They may have left
+/// by less than is farther than a robot moves.
+fn rows_before(steps: &[Step], jump: usize, between: impl Fn(usize, usize) -> Step) -> Option<RangeInclusive<usize>> {
+    let off = |(dt, moved): Step, rate: [f64; 3]| {
+        let off: [f64; 3] = std::array::from_fn(|axis| moved[axis] - rate[axis] * dt);
+        [way(&off) / RULES.least[0], turned(&off) / RULES.least[1]].into_iter().fold(0.0, f64::max)
+    };
+    let is_back = |last: usize| {
+        let rate = before(&steps[..last]);
+        off(between(last, jump + 1), rate) < RULES.back * off(steps[jump], rate)
+    };
+    let last = (1..=RULES.lone).filter_map(|rows| jump.checked_sub(rows)).find(|last| is_back(*last))?;
+    Some(last + 1..=jump)
+}
+
+/// Rows from a jump on that are elsewhere, until the pose is where it would be had it not jumped, whatever time has passed; of so many.
+fn rows_after(
+    limits: &Limits,
+    (jump, count): (usize, usize),
+    between: impl Fn(usize, usize) -> Step,
+) -> Option<RangeInclusive<usize>> {
+    let next = (1..=RULES.lone).map(|rows| jump + 1 + rows).filter(|next| *next < count);
+    let back = next.into_iter().find(|next| !limits.are_passed(&(limits.apart, between(jump, *next).1)))?;
+    Some(jump + 1..=back - 1)
+}
+
+/// A jump of a pose.
 struct Jump {
     time: f64,
     way: [f64; 3],
+    /// Whether by its place, and by its yaw.
+    passed: [bool; 2],
 }
 
-impl Jump {
-    fn told(&self, count: usize) -> String {
-        let more = match count {
-            1 => String::new(),
-            2 => ", and once more".to_owned(),
-            _ => format!(", and {} times more", count - 1),
-        };
-        format!(
-            "the pose jumps by {:.2} m and {:.2} rad at {:.1} s{more}, farther than the robot moves from row to row: it is continued \
-             there as the robot moved before",
-            way(&self.way),
-            turned(&self.way),
-            self.time
-        )
-    }
+/// Rows in which the pose is elsewhere, the first of them at this time, for people.
+fn elsewhere(rows: usize, time: f64) -> String {
+    let [of_rows, are] = if rows == 1 {
+        [format!("the pose at {time:.1} s"), "is".to_owned()]
+    } else {
+        [format!("{rows} single poses, the first at {time:.1} s,"), "are".to_owned()]
+    };
+    format!(
+        "{of_rows} {are} farther from those before and after than the robot moves from row to row, and {are} taken as not seen"
+    )
+}
+
+/// Jumps of a pose that stays where it is then, for people.
+fn told(jumps: &[Jump]) -> Option<String> {
+    let first = jumps.first()?;
+    let more = match jumps.len() {
+        1 => String::new(),
+        2 => ", and once more".to_owned(),
+        count => format!(", and {} times more", count - 1),
+    };
+    let by = [format!("{:.2} m", way(&first.way)), format!("{:.2} rad", turned(&first.way))];
+    let by: Vec<String> = by.into_iter().zip(first.passed).filter(|(_, passed)| *passed).map(|(by, _)| by).collect();
+    Some(format!(
+        "the pose jumps by {} at {:.1} s{more}, farther than the robot moves from row to row: it is continued there as the robot moved \
+         before",
+        by.join(" and "),
+        first.time
+    ))
 }
 
 /// A frame that moved, so that places and yaw are other numbers in it.
@@ -210,6 +251,20 @@ mod tests {
             assert_eq!(told.contains("once more"), until < 2000);
             assert!(most_apart(&pose, &right) < 1e-3, "{}", most_apart(&pose, &right));
         }
+    }
+
+    #[test]
+    fn a_row_that_leaves_by_less_than_is_no_motion_and_comes_back_by_more_moves_nothing_that_follows() {
+        let (time, right) = circle();
+        // Up to 0.1 rad from row to row may be motion: the one is no motion as it leaves, the other as it comes back.
+        let mut pose = right.clone();
+        pose[400][2] += 0.105;
+        pose[800][2] -= 0.105;
+        let told = without_jumps(&time, &mut pose).expect("a jump");
+        let unseen: Vec<usize> = (0..pose.len()).filter(|k| pose[*k][0].is_nan()).collect();
+        assert_eq!(unseen, [400, 800], "{told}");
+        assert_eq!(most_apart(&pose, &right), 0.0, "{told}");
+        assert!(told.starts_with("2 single poses, the first at 8.0 s, are") && !told.contains("jumps"), "{told}");
     }
 
     #[test]

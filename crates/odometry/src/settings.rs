@@ -32,6 +32,8 @@
         least: [f64; 2] = [0.05, 0.1], "m, rad", "guess; several times the noise of usual trackers";
         /// Rows in which a pose that comes back is taken as not seen.
         lone: usize = 3, "1", "guess; longer ones are continued";
+        /// Share of a jump by which a pose may be elsewhere than the robot moved, for it to be the way back of the rows before.
+        back: f64 = 0.5, "1", "guess; half of it is the way back, or none";
         /// Jumps of a pose of which more are how it is, each second.
         most: f64 = 0.2, "1/s", "guess; a map that is matched anew each second moves as often";
         /// Steps before a jump that say how the robot moved.
