@@ -5,7 +5,7 @@ use hierarchical_fit::Wording;
 
 use crate::diagnose::Findings;
 use crate::forecast::{ByLength, LENGTHS};
-use crate::left_out::{FOLLOWING, OWN_ROWS, Table};
+use crate::left_out::{CORRECTED, FOLLOWING, OWN_ROWS, Table};
 use catalogue::car::ENCODER_SCALE;
 use verdict::Diagnosis;
 
@@ -72,13 +72,7 @@ fn limits(findings: &Findings, table: &Table, has_references: bool) -> Vec<Strin
             unstated.join(", ")
         ));
     }
-    let median = |row: usize| table.rows.get(row).and_then(|r| r.1[LENGTHS.len() - 1].medians()).map(|m| m[0]);
-    let rival = (OWN_ROWS..table.rows.len()).filter_map(median).fold(f64::INFINITY, f64::min);
-    if median(FOLLOWING).is_some_and(|own| own > rival) {
-        out.push(
-            "a classical model forecasts drives left out better than the answer does: do not build on it".to_owned(),
-        );
-    }
+    out.extend(better_rival(table));
     if findings.counts[0] == 1 {
         out.push("one drive cannot tell by how much constants differ from drive to drive".to_owned());
     }
@@ -86,4 +80,42 @@ fn limits(findings: &Findings, table: &Table, has_references: bool) -> Vec<Strin
         out.push("no references were given: the robot file, as sure as it states, stands in their place".to_owned());
     }
     out
+}
+
+/// That a classical model forecasts places on drives left out better than the answer does, however that is used.
+fn better_rival(table: &Table) -> Option<String> {
+    let last = LENGTHS.len() - 1;
+    let median = |row: usize| Some((row, table.rows.get(row)?.1[last].medians()?[0]));
+    let best = |rows: &mut dyn Iterator<Item = usize>| rows.filter_map(median).min_by(|a, b| a.1.total_cmp(&b.1));
+    let (_, own) = best(&mut [CORRECTED, FOLLOWING].into_iter())?;
+    let (row, of_rival) = best(&mut (OWN_ROWS..table.rows.len()))?;
+    (of_rival < own).then(|| {
+        format!(
+            "on drives left out a classical model ({}) forecasts places {:.0} s ahead better than the answer does, {:.1} cm off where the \
+             answer is {:.1} (medians): do not build on it",
+            table.rows[row].0,
+            LENGTHS[last],
+            100.0 * of_rival,
+            100.0 * own
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forecast::collected;
+
+    #[test]
+    fn a_rival_is_named_only_where_it_forecasts_better_than_either_way_of_using_the_answer() {
+        let of = |errors: [f64; 7]| {
+            let rows =
+                errors.into_iter().enumerate().map(|(k, error)| (format!("row {k}"), collected([[[error, 0.0]; 3]])));
+            better_rival(&Table { rows: rows.collect(), ..Table::default() })
+        };
+        assert_eq!(of([1.0, 0.3, 0.2, 0.3, 0.4, 0.3, 0.25]), None, "the answer as it stands");
+        assert_eq!(of([1.0, 0.3, 0.4, 0.3, 0.2, 0.3, 0.25]), None, "the answer that follows the past");
+        let told = of([1.0, 0.3, 0.4, 0.3, 0.5, 0.45, 0.25]).expect("a better rival");
+        assert!(told.contains("(row 6)") && told.contains("25.0 cm") && told.contains("is 40.0"), "{told}");
+    }
 }

@@ -30,16 +30,23 @@ fn without_a_cause([calibrated, _, fault_free]: [f64; 3]) -> String {
     )
 }
 
-/// What is missing, a sentence for each likely effect. Of one that either side may have, both are told.
-fn missing(causes: &[&Cause]) -> Vec<String> {
+/// What is missing, a sentence for each likely effect; of one that either side may have, and of two likely ones that cannot be told
+/// apart, one for both.
+fn missing(causes: &[&Cause], indistinguishable: &[Vec<String>]) -> Vec<String> {
     let is_other_side =
         |a: &Cause, b: &Cause| a.effect == b.effect && a.side.is_some() && b.side.is_some() && a.side != b.side;
+    let are_both_likely = |a: &Cause, b: &Cause| a.probability.min(b.probability) > SETTINGS.answer.likely;
+    let are_of_a_class = |a: &Cause, b: &Cause| {
+        a.effect != b.effect
+            && indistinguishable.iter().any(|class| class.contains(&a.effect) && class.contains(&b.effect))
+    };
+    let is_either = |a: &Cause, b: &Cause| is_other_side(a, b) || (are_both_likely(a, b) && are_of_a_class(a, b));
     let mut out = Vec::new();
     for (k, c) in causes.iter().enumerate() {
-        if causes[..k].iter().any(|before| is_other_side(before, c)) {
+        if causes[..k].iter().any(|before| is_either(before, c)) {
             continue;
         }
-        let other = causes[k..].iter().find(|other| is_other_side(other, c));
+        let other = causes[k..].iter().find(|other| is_either(c, other));
         let together = (c.probability + other.map_or(0.0, |other| other.probability)).min(1.0);
         if together <= SETTINGS.answer.likely {
             continue;
@@ -48,13 +55,13 @@ fn missing(causes: &[&Cause]) -> Vec<String> {
         let p = probability(together);
         let place = c.place.map_or(String::new(), |p| format!(" within {:.2} m of ({:.2}, {:.2}) m", p[2], p[0], p[1]));
         out.push(match other {
-            Some(other) => format!(
-                "Missing: {}, {}, or {}, {}: these recordings do not tell which side (either: probability {p}).",
-                c.name,
-                quantity(c),
-                other.name,
-                quantity(other)
-            ),
+            Some(other) => {
+                let which = if c.effect == other.effect { "which side" } else { "which" };
+                let [first, second] = [c, other].map(|c| format!("{}, {}", c.name, quantity(c)));
+                format!(
+                    "Missing: {first}, or {second}: these recordings do not tell {which} (either: probability {p})."
+                )
+            }
             None => format!("Missing: {}, {}{place} (probability {p}).", c.name, quantity(c)),
         });
     }
@@ -120,7 +127,7 @@ pub(crate) fn sentences(d: &Diagnosis, judged: &Judged<'_>) -> Vec<String> {
             out.extend(judged.decision.why_unknown(what, calibrated));
         }
         Verdict::Explained => {
-            out.extend(missing(&causes));
+            out.extend(missing(&causes, &d.indistinguishable));
             if out.is_empty()
                 && let Some(c) = causes.first()
             {
@@ -193,7 +200,7 @@ mod tests {
         let right = of("torque_constant_side", "torque constant of one side: right", 0.5, -0.13);
         let left = of("torque_constant_side", "torque constant of one side: left", 0.49, 0.15);
         let drag = of("quadratic_drag", "quadratic drag", 0.7, 3.0);
-        let told = missing(&[&drag, &right, &left]);
+        let told = missing(&[&drag, &right, &left], &[]);
         assert_eq!(told.len(), 2, "{told:?}");
         assert!(
             told[0].starts_with("Missing: quadratic drag, ") && told[0].ends_with("(probability 0.70)."),
@@ -205,7 +212,23 @@ mod tests {
             "{both}"
         );
         assert!(both.ends_with("do not tell which side (either: probability 0.99)."), "{both}");
-        assert!(missing(&[&of("grade", "sloping ground", 0.4, 0.1)]).is_empty());
+        assert!(missing(&[&of("grade", "sloping ground", 0.4, 0.1)], &[]).is_empty());
+    }
+
+    #[test]
+    fn two_likely_effects_that_cannot_be_told_apart_are_told_as_one_or_the_other() {
+        let of =
+            |effect: &str, probability| Cause { magnitude: Some(2.0), ..Cause::plain(effect, effect, probability) };
+        let [payload, gain, drag] = [of("payload", 0.52), of("gain", 0.51), of("drag", 0.9)];
+        let class = [vec!["payload".to_owned(), "gain".to_owned(), "slope".to_owned()]];
+        let told = missing(&[&drag, &payload, &gain], &class);
+        assert_eq!(told.len(), 2, "{told:?}");
+        assert!(told[1].starts_with("Missing: payload, ") && told[1].contains(", or gain, "), "{told:?}");
+        assert!(told[1].ends_with("do not tell which (either: probability 1.00)."), "{told:?}");
+
+        assert_eq!(missing(&[&drag, &payload, &gain], &[]).len(), 3, "both are there");
+        let unlikely = of("slope", 0.2);
+        assert_eq!(missing(&[&payload, &unlikely], &class), missing(&[&payload], &class));
     }
 
     #[test]
