@@ -92,11 +92,6 @@ impl<D: Observed> Solved<D> {
         let retuned = moved(&self.retuned, prior, &|fit| Some(of_none(fit)?.mean))?;
         let mut named = of_named(&fit)?;
         named.retuned = of_none(&retuned)?;
-        // The equations name anew where they lead, which nothing has been compared with yet.
-        let [led, stood] = [named.posterior.mean.as_slice(), &fit.theta].map(|at| data.share(at));
-        if led > (1.0 + SETTINGS.naming.leaves_more) * stood {
-            named.posterior.mean = DVector::from_column_slice(&fit.theta);
-        }
         drop_unmoved(causes, prior, &mut named);
         let left_of_references = self.left_of_references;
         let fit =
