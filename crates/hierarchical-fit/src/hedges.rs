@@ -9,9 +9,15 @@ use crate::settings::SETTINGS;
 use crate::telling::Found;
 
 impl Found<'_> {
-    /// How an answer begins by which nothing is missing.
+    /// How an answer begins by which nothing is missing; where that is open, as it has been said, what follows is no more than that.
     pub(crate) fn nothing(&self) -> &'static str {
-        if self.doubt() > 0.0 { "Nothing that can be named is missing" } else { "Nothing is missing" }
+        if self.undecided().is_some() {
+            "If nothing is missing,"
+        } else if self.doubt() > 0.0 {
+            "Nothing that can be named is missing:"
+        } else {
+            "Nothing is missing:"
+        }
     }
 
     /// What is left of the recordings beside the references, where that is more than usual.

@@ -73,7 +73,7 @@ impl Found<'_> {
         let Wording { agree, disagree, errors, machine, conditions, .. } = words;
         match self.answer {
             Answer::Nothing => format!(
-                "{}: {agree}, as well as {stated} {is_known} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned).",
+                "{} {agree}, as well as {stated} {is_known} ({errors}: {given:.1} % of the motion, {tuned:.1} % re-tuned).",
                 self.nothing()
             ),
             Answer::Retune => {
@@ -257,6 +257,12 @@ mod tests {
             "{leads}"
         );
         assert_eq!([told(Answer::Retune, 0.4), told(Answer::Named, 0.7)], [None, None]);
+
+        let begins = |probability| {
+            let others = [("pose_origin".to_owned(), probability)];
+            Found { others: &others, ..found(Answer::Nothing) }.nothing()
+        };
+        assert_eq!([begins(0.7), begins(0.4)], ["If nothing is missing,", "Nothing is missing:"]);
     }
 
     #[test]
@@ -284,7 +290,7 @@ mod tests {
             let total: f64 = ranked.iter().map(|c| c.probability).sum();
             approx::assert_relative_eq!(total, 1.0, epsilon = 1e-12);
             let unknown = ranked.into_iter().find(|c| c.effect == UNKNOWN.id);
-            assert_eq!(told.nothing() == "Nothing is missing", told.doubted().is_none());
+            assert_eq!(told.nothing() == "Nothing is missing:", told.doubted().is_none());
             (unknown.map_or(0.0, |c| c.probability), told.doubted())
         };
         let (unknown, told) = doubted(0.02, Some(0.006));

@@ -109,6 +109,16 @@ fn limits(findings: &Findings, has_references: bool) -> Vec<String> {
                 .to_owned(),
         );
     }
+    let is_smaller = |cause: &NamedCause| {
+        cause.spec.id == RADIUS_OF_ALL_WHEELS.id && cause.estimates.first().is_some_and(|e| e.value < e.given)
+    };
+    if findings.named.iter().any(is_smaller) {
+        out.push(
+            "smaller radii of all wheels, more counts a turn, and driven wheels that always slip by the same share (a brake that drags, \
+             a heavy load) look the same: see whether all wheels turn freely before numbers are corrected"
+                .to_owned(),
+        );
+    }
     if !has_references {
         out.push("no references were given: the robot file, as sure as it states, stands in their place".to_owned());
     }

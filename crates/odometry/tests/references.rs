@@ -4,7 +4,7 @@
 mod drawn;
 
 use drawn::{Hidden, Kind, drawn};
-use odometry::{Answer, Case, diagnose};
+use odometry::{Answer, Case, Table, diagnose, diagnosis};
 
 fn named(case: &Case) -> (Answer, Vec<&'static str>) {
     let findings = diagnose(case, &|_| {}).expect("an answer");
@@ -23,6 +23,22 @@ fn what_references_have_too_is_not_named_again() {
         let (answer, causes) = named(&split);
         assert!(matches!(answer, Answer::Nothing | Answer::Retune), "{kind:?}: {answer:?} {causes:?}");
     }
+}
+
+#[test]
+fn smaller_radii_of_all_wheels_come_with_what_looks_the_same() {
+    let mut seen = [false; 2];
+    for seed in 61..67 {
+        let case = drawn(Kind::Differential, Hidden::AllRadii, 3, 60.0, seed).case;
+        let findings = diagnose(&case, &|_| {}).expect("an answer");
+        assert_eq!(findings.named[0].spec.id, "radius_of_all_wheels", "{seed}");
+        let is_smaller = findings.named[0].estimates[0].value < findings.named[0].estimates[0].given;
+        let told = diagnosis(&findings, &Table::default(), false);
+        let is_told = told.limits.iter().any(|limit| limit.contains("a brake that drags"));
+        assert_eq!(is_told, is_smaller, "{seed}: {:?}", told.limits);
+        seen[usize::from(is_smaller)] = true;
+    }
+    assert_eq!(seen, [true; 2], "radii of both kinds are drawn");
 }
 
 #[test]
