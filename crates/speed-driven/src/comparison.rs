@@ -5,6 +5,7 @@ use inference::algebra::{inverse_spd, solve_spd, whitening};
 use inference::evidence::price_of_a_constant;
 use inference::hypothesis::{Dose, Free, Sizes, Variant};
 use inference::least_squares::{Constant, Residuals, Settings};
+use inference::robust::mean;
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tuned};
 use verdict::{Load, Quantity, Ratio, SideDrift};
@@ -242,6 +243,13 @@ impl Comparison {
         let named = best.map_or(0.0, |b| (b.gain - b.score) / b.values.len().max(1) as f64);
         Some(explained - (price_of_a_constant(n) + PRIORS.per_unknown).max(named) * m as f64)
     }
+}
+
+/// The slope that would change the straight load as it differs, rad, uphill positive; `weight` is `m g r`, N m.
+pub(crate) fn slope_of_all(differences: &[Difference], weight: f64) -> Option<f64> {
+    let straight = differences.iter().filter(|d| d.here.at.quantity == Quantity::StraightLoad);
+    mean(straight.map(|d| d.here.value.exp() - d.reference.value.exp()))
+        .map(|more| (more / weight).clamp(-1.0, 1.0).asin())
 }
 
 /// A reference as it was measured.

@@ -4,8 +4,10 @@ use crate::settings::{CHANGES, changes::Plane};
 
 const PLANE: Plane = CHANGES.plane;
 
-/// A stretch of straight driving: where it goes, rad; its load and the references' at its speed, N m; whether that is only a bound.
+/// A stretch of straight driving: from when, s; where it goes, rad; its load and the references' at its speed, N m; whether that is only a bound.
+#[derive(Debug, Clone)]
 pub(crate) struct Stretch {
+    pub(crate) from: f64,
     pub(crate) direction: f64,
     pub(crate) load: f64,
     pub(crate) usual: f64,
@@ -78,7 +80,7 @@ pub(crate) fn on_one_slope(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64,
 
 /// The best fit of recordings on one level ground that resists `ratio` times as much, where something holds the robot back by `pull`,
 /// N m, whichever way it looks, nats.
-fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, (ratio, pull): (f64, f64)) -> f64 {
+pub(crate) fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, (ratio, pull): (f64, f64)) -> f64 {
     let of_run = |stretches: &Vec<Stretch>| {
         let of_level = |(level, price): (f64, f64)| {
             price + stretches.iter().map(|s| misfit(s, is_unsigned, ratio * level, [pull * s.way, 0.0])).sum::<f64>()
@@ -89,7 +91,7 @@ fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, (ratio,
 }
 
 /// The best fit of recordings on level ground of which parts resist `ratio` times as much, nats.
-fn on_two_grounds(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, ratio: f64) -> f64 {
+pub(crate) fn on_two_grounds(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, ratio: f64) -> f64 {
     let of_run = |stretches: &Vec<Stretch>| {
         let of_level = |(level, price): (f64, f64)| {
             let of = |s: &Stretch| {
@@ -108,27 +110,31 @@ pub(crate) fn pull_of(weight: f64, degrees: f64) -> f64 {
     weight * degrees.to_radians().sin()
 }
 
+/// Ratios of two grounds that are tried.
+pub(crate) fn ratios_tried() -> impl Iterator<Item = f64> {
+    (1..=PLANE.ratios).flat_map(|k| {
+        let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
+        [ratio, 1.0 / ratio]
+    })
+}
+
 /// Cost of what rivals a slope, nats: level ground, firm or soft, with a rope or without, and ground that changes. Each pays for what
 /// it chooses.
 pub(crate) fn rivals(all: &[Vec<Stretch>], is_unsigned: bool, spread: f64, weight: f64) -> f64 {
-    let ratios = || {
-        (1..=PLANE.ratios).flat_map(|k| {
-            let ratio = (PLANE.most_ratio.ln() * k as f64 / PLANE.ratios as f64).exp();
-            [ratio, 1.0 / ratio]
-        })
-    };
     let least = |costs: &mut dyn Iterator<Item = f64>| costs.fold(f64::MAX, f64::min);
-    let two = least(&mut ratios().map(|ratio| on_two_grounds(all, is_unsigned, spread, ratio))) + PLANE.per_number;
+    let two =
+        least(&mut ratios_tried().map(|ratio| on_two_grounds(all, is_unsigned, spread, ratio))) + PLANE.per_number;
     let ropes = || {
         (0..=PLANE.ropes).map(|k| pull_of(weight, PLANE.steepest * k as f64 / PLANE.ropes as f64)).flat_map(|p| [p, -p])
     };
-    let one =
-        least(&mut std::iter::once(1.0).chain(ratios()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
+    let one = least(
+        &mut std::iter::once(1.0).chain(ratios_tried()).flat_map(|ratio| ropes().map(move |rope| (ratio, rope))).map(
             |(ratio, rope)| {
                 let chosen = f64::from(u8::from(ratio != 1.0)) + f64::from(u8::from(rope != 0.0));
                 on_level_ground(all, is_unsigned, spread, (ratio, rope)) + PLANE.per_number * chosen
             },
-        ));
+        ),
+    );
     one.min(two)
 }
 
@@ -144,7 +150,7 @@ mod tests {
         let at = |k: u32| {
             let direction = 1.2 * f64::from(k);
             let load = USUAL + 6.0 * (direction - uphill).cos();
-            Stretch { direction, load, usual: USUAL, tilt: None, is_bound: false, way: 1.0 }
+            Stretch { from: 0.0, direction, load, usual: USUAL, tilt: None, is_bound: false, way: 1.0 }
         };
         (0..5).map(at).collect()
     }

@@ -42,7 +42,7 @@ pub(crate) fn mark(references: &[SpeedRun], recordings: &mut [SpeedRun], track: 
 }
 
 /// Speed shown over speed set of both sides at a row at which what is set has settled.
-fn followed(run: &SpeedRun, i: usize) -> Option<[f64; 2]> {
+pub(crate) fn followed(run: &SpeedRun, i: usize) -> Option<[f64; 2]> {
     let set = run.commanded.as_ref()?;
     let is_near = |k: usize| (0..2).all(|j| (set[j][k] - set[j][i]).abs() <= ENCODERS.steady);
     let first = run.time.partition_point(|t| *t < run.time[i] - ENCODERS.settled);
@@ -52,7 +52,7 @@ fn followed(run: &SpeedRun, i: usize) -> Option<[f64; 2]> {
 }
 
 /// What drives show of what is set, as a rule: that of the side that follows better, where an encoder may be off throughout.
-fn usual(runs: &[SpeedRun]) -> f64 {
+pub(crate) fn usual(runs: &[SpeedRun]) -> f64 {
     let of_side =
         |j: usize| median(runs.iter().flat_map(|run| (0..run.time.len()).filter_map(|i| Some(followed(run, i)?[j]))));
     let shares = [of_side(0), of_side(1)].into_iter().flatten().filter(|share| *share > 0.0);

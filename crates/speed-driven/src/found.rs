@@ -16,11 +16,15 @@ use verdict::{
     Standstill, TurningChange, Verdict, WrongSpeed,
 };
 
+use crate::body_pull;
 use crate::cause::cause;
 use crate::compare::{Judgement, judgement, reported, sigmas};
+use crate::following;
 use crate::name::{Named, Naming};
 use crate::pieces::GRADE;
+use crate::pulses;
 use crate::settings::{CHANGES, NAMING, naming::Answer};
+use crate::tipping;
 
 const ANSWER: Answer = NAMING.answer;
 
@@ -56,25 +60,33 @@ pub(crate) fn add(out: &mut Diagnosis, naming: Option<&Naming>, loads: &Loads) {
             insert(out, class);
         }
     }
+    // The last one leads.
     if let Some(slope) = loads.slope.as_ref().filter(|slope| !slope.is_level) {
-        insert(out, vec![slopes(slope)]);
-        out.indistinguishable.rotate_right(1);
+        lead(out, vec![slopes(slope)]);
     }
     if let Some(drift) = &loads.drift {
-        insert(out, drifts(drift));
-        out.indistinguishable.rotate_right(1);
+        lead(out, drifts(drift));
     }
     if let Some(gyro) = loads.gyro.as_ref().filter(|gyro| gyro.is_off) {
-        insert(out, vec![gyro_beside_pose::cause(gyro)]);
-        out.indistinguishable.rotate_right(1);
+        lead(out, vec![gyro_beside_pose::cause(gyro)]);
+    }
+    if let Some(pull) = &loads.pull {
+        lead(out, body_pull::causes(pull, ANSWER.changed));
+    }
+    for tipped in &loads.tipped {
+        lead(out, vec![tipping::cause(tipped, ANSWER.changed)]);
+    }
+    for pulsing in &loads.pulsing {
+        lead(out, pulses::causes(pulsing, ANSWER.changed));
+    }
+    for unfollowed in &loads.unfollowed {
+        lead(out, vec![following::cause(unfollowed, ANSWER.changed)]);
     }
     for cause in wrong_encoders(&loads.wrong_speeds) {
-        insert(out, vec![cause]);
-        out.indistinguishable.rotate_right(1);
+        lead(out, vec![cause]);
     }
     if let Some(cause) = standing(&loads.standstills) {
-        insert(out, vec![cause]);
-        out.indistinguishable.rotate_right(1);
+        lead(out, vec![cause]);
     }
     let is_pulled = loads.slope.is_some_and(|slope| slope.is_level);
     if is_pulled {
@@ -380,6 +392,19 @@ fn by_recording<'a>(all: impl Iterator<Item = (&'a str, [f64; 2])>) -> BTreeMap<
         out.entry(recording.to_owned()).or_default().push(interval);
     }
     out
+}
+
+/// Ranks a class of causes of something that was measured, before all others.
+fn lead(out: &mut Diagnosis, class: Vec<Cause>) {
+    let is_listed = class.iter().any(|cause| cause.effect != UNKNOWN.id);
+    let ids: Vec<String> = class.iter().map(|cause| cause.effect.clone()).collect();
+    insert(out, class);
+    // Also before what is as probable.
+    let is_other = |c: &Cause| !ids.contains(&c.effect);
+    out.ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability).then(is_other(a).cmp(&is_other(b))));
+    if is_listed {
+        out.indistinguishable.rotate_right(1);
+    }
 }
 
 /// Ranks a class of causes of something that was measured. "Nothing is missing" is then at most as probable as the absence of

@@ -6,7 +6,7 @@
 
 use robot_model::Robot;
 use robot_model::tunable::{COUNT as NUISANCES, tuned};
-use verdict::{Load, LoadChange, Loads, OtherGround, Ratio};
+use verdict::{Load, LoadChange, Loads, OtherGround, Quantity, Ratio};
 
 use crate::compare::{Judgement, Reference, judgement, ratios};
 use crate::comparison::Comparison;
@@ -186,6 +186,12 @@ pub(crate) fn leave_out(runs: &mut Vec<SpeedRun>, loads: &Loads, usual: &Usual<'
     }
     *runs = on_grounds;
     Measured::Grounds
+}
+
+/// Whether turning, or the track, differs on any of these grounds.
+pub(crate) fn turn_otherwise(grounds: &[OtherGround]) -> bool {
+    let differs = |r: &Ratio| r.quantity != Quantity::StraightLoad && judgement(r) == Judgement::Differs;
+    grounds.iter().flat_map(|g| &g.ratios).any(differs)
 }
 
 /// Whether what fits the longest ground best is among what fits all others; those that nothing fits say nothing.

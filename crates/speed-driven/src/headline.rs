@@ -8,14 +8,20 @@ use catalogue::speed_driven::{SOFT_GROUND, STANDING};
 use inference::gyro_beside_pose;
 use inference::words::quantity;
 use robot_model::effects::{gyro_scale, wheel_radius_mismatch};
-use verdict::{Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed};
+use verdict::{
+    Cause, Diagnosis, LoadChange, Loads, OtherGround, Quantity, Ratio, SideDrift, Standstill, Verdict, WrongSpeed,
+};
 
+use crate::body_pull;
 use crate::compare::{Judgement, judgement, reported, steady_seconds};
+use crate::following;
 use crate::found::{largest_side_change, longest, measured_slopes, strongest};
 use crate::groups::{Disagreement, disagreements};
 use crate::pieces::GRADE;
+use crate::pulses;
 use crate::settings::{NAMING, naming::Answer, naming::Sentences};
 use crate::slope_sentences;
+use crate::tipping;
 use crate::words::{
     any_of, change, compared, group, how_it_stands, other_ground, recordings, side_change, turning_change,
 };
@@ -32,7 +38,12 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
     let gyro: Vec<String> = loads.gyro.iter().filter(|gyro| gyro.is_off).map(gyro_beside_pose::told).collect();
     let drift: Vec<String> = loads.drift.iter().map(drifts).collect();
     let encoders = [false, true].map(|followed| wrong_encoders(&loads.wrong_speeds, followed)).concat();
-    let leads = [&standing, &encoders, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
+    let unfollowed = loads.unfollowed.iter().map(following::told);
+    let pulsing = loads.pulsing.iter().map(pulses::told);
+    let pull = loads.pull.iter().map(|p| body_pull::told(p, theirs));
+    let drives: Vec<String> =
+        unfollowed.chain(pulsing).chain(pull).chain(loads.tipped.iter().map(tipping::told)).collect();
+    let leads = [&standing, &encoders, &drives, &slope, &gyro, &drift].iter().all(|told| told.is_empty());
     let inside = || slope_sentences::inside(loads);
     let rest = match of_loads {
         Verdict::Explained => [located(disagreeing(loads, theirs, named(d, loads)), loads), inside()].concat(),
@@ -47,7 +58,7 @@ pub(crate) fn headline(d: &Diagnosis, of_loads: Verdict, loads: &Loads, theirs: 
             }
         }
     };
-    [standing, encoders, gyro, drift, slope, rest].concat()
+    [standing, encoders, drives, gyro, drift, slope, rest].concat()
 }
 
 /// Encoders that show another speed of a side than there is.
@@ -339,12 +350,21 @@ fn standing(all: &[Standstill]) -> Vec<String> {
     ]
 }
 
+/// Whether a cause is one of drives that do not follow, of loads that pulse, or of units that tip.
+fn is_of_drives(c: &Cause, loads: &Loads) -> bool {
+    let pulsing = loads.pulsing.iter().flat_map(|p| pulses::causes(p, ANSWER.changed));
+    pulsing
+        .chain(loads.unfollowed.iter().map(|u| following::cause(u, ANSWER.changed)))
+        .any(|own| own.effect == c.effect)
+}
+
 /// The causes that the loads name, and what tells the members of a class apart.
 fn named(d: &Diagnosis, loads: &Loads) -> Vec<String> {
     // What is told by itself.
     let gyro = loads.gyro.filter(|gyro| gyro.is_off).map(|_| gyro_scale::SPEC.id);
     let drift = loads.drift.as_ref().map(|_| wheel_radius_mismatch::SPEC.id);
-    let apart_from_loads: Vec<&str> = [Some(STANDING.id), gyro, drift].into_iter().flatten().collect();
+    let of_drives = d.ranked.iter().filter(|c| is_of_drives(c, loads)).map(|c| c.effect.as_str());
+    let apart_from_loads: Vec<&str> = [Some(STANDING.id), gyro, drift].into_iter().flatten().chain(of_drives).collect();
     let is_measured = measured_slopes(loads).next().is_some();
     let of_loads = |class: &&Vec<String>| {
         !(is_measured && **class == [GRADE]) && class.iter().all(|id| !apart_from_loads.contains(&id.as_str()))

@@ -21,7 +21,8 @@
 //! * `mounting`: how the inertial unit leans in the body; `zero`, `gyro_zero`: what current
 //!   sensors read when nothing flows, and a gyro while the robot stands.
 //! * `power`: signs of torques that no robot can have.
-//! * `plane`, `directed_pull`: one slope under all driving, by loads and directions of travel.
+//! * `plane`, `directed_pull`: one slope under all driving, by loads and directions of travel; `body_pull`: a pull along the body.
+//! * `following`, `pulses`, `tipping`: sides that do not turn as commanded, loads that rise and fall, units that tip.
 //! * `changes`, `attitude`, `slopes`: whether a slope or the ground does it; `changed`, `marking`: rows that show that; `slope_pull`: what a slope pulls,
 //!   taken off.
 //! * `drift`: a side whose wheels roll as if they had another radius.
@@ -34,6 +35,7 @@
 
 mod answer;
 mod attitude;
+mod body_pull;
 mod body_rates;
 mod cause;
 mod changed;
@@ -45,6 +47,7 @@ mod directed_pull;
 mod drift;
 mod encoders;
 mod extract;
+mod following;
 mod forecast;
 mod found;
 mod ground;
@@ -66,6 +69,7 @@ mod one_side;
 mod pieces;
 mod plane;
 mod power;
+mod pulses;
 mod replica;
 mod rows;
 mod run;
@@ -83,6 +87,7 @@ mod straight;
 mod testing;
 #[cfg(test)]
 mod tests;
+mod tipping;
 mod traces;
 mod turning;
 mod words;
@@ -188,6 +193,7 @@ pub fn diagnose_steady(
     let track = track_of(&references(&reference_loads)).unwrap_or(of_file);
     let wrong_speeds = encoders::mark(&marked.references, &mut marked.recordings, track);
     let mut standstills = standstill::mark(&mut marked.recordings, track);
+    let unfollowed = following::unfollowed(&marked.references, &marked.recordings, case.torque_sigma);
 
     let by_file = case.references.is_empty();
     let references_of = |loads: &[Load]| {
@@ -200,13 +206,11 @@ pub fn diagnose_steady(
     let usual = usual(&references_of(&all_loads(&marked.recordings).0));
     let usual = if by_file { Usual::of_file(usual) } else { Usual::of_references(usual) };
     let weight = case.weight(&robot);
-    let slope = plane::take_off(&mut marked.recordings, &usual, weight);
-    let (changes, pushing) = marking::mark(&mut marked.recordings, &usual, weight.0);
-    let side_changes = one_side::mark(&mut marked.recordings, case.torque_sigma);
-    standstills.extend(pushing);
+    let taken_out = marking::take_out(&mut marked, &usual, (weight, robot.wheel_radius));
+    standstills.extend(taken_out.standstills.iter().cloned());
     let (of_recordings, not_given) = all_loads(&marked.recordings);
     let refs = references_of(&of_recordings);
-    if refs.is_empty() && standstills.is_empty() && wrong_speeds.is_empty() && slope.is_none() {
+    if refs.is_empty() && standstills.is_empty() && wrong_speeds.is_empty() && taken_out.slope.is_none() {
         return Err(too_calm(withheld.iter().chain(&not_given)));
     }
 
@@ -216,8 +220,8 @@ pub fn diagnose_steady(
 
     progress("looking into the recordings");
     let as_on_references = tuned(&robot, &case.sigma, &calibrated.theta);
-    let found_inside = within(&marked, &as_on_references, &refs, reference_loads.clone());
-    let mut loads = Loads { standstills, wrong_speeds, changes, slope, side_changes, ..found_inside };
+    let by_itself = Loads { standstills, wrong_speeds, unfollowed, references: reference_loads.clone(), ..taken_out };
+    let mut loads = within(&marked, &as_on_references, &refs, by_itself);
     let usual = grounds::Usual { references: &refs, robot: &robot, sigma: &case.sigma, calibrated: &calibrated };
     loads.grounds = grounds::grounds(&marked.recordings, &loads, &usual);
     one_side::drop_what_shows_it(&mut loads);
@@ -234,9 +238,7 @@ pub fn diagnose_steady(
 
     progress("weighing the effects");
     let differences = differences(&of_recordings, &refs);
-    let compared = differences.iter().map(|d| (d.here.at.quantity, &d.recording));
-    let one_slope = heading::may_be_one_slope(compared, &case.recordings);
-    let open = Open { same_robot: options.same_robot, one_slope, of_ground: false };
+    let open = Open::of(&case.recordings, &loads, &differences, weight.0).same_robot(options.same_robot);
     let comparison = Comparison::new(&differences, &robot, &case.sigma, &calibrated);
     let naming = comparison.as_ref().and_then(|c| name(c, open));
     loads.drift = comparison.as_ref().and_then(Comparison::side_drift);
@@ -365,8 +367,8 @@ fn usual(refs: &[Reference]) -> ByClass {
     out
 }
 
-/// What is inside the recordings beside changes of the straight load: turning, forecasts, clocks.
-fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references: Vec<Load>) -> Loads {
+/// Adds what is inside the recordings beside changes of the straight load: turning, forecasts, clocks.
+fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], known: Loads) -> Loads {
     let of = |quantity: Quantity| refs.iter().filter(move |r| r.quantity == quantity);
     let straight = usual(refs).iter().flatten().next().copied();
     let sides = scrub::Sides::of(&case.references);
@@ -376,7 +378,7 @@ fn within(case: &SteadyCase, robot: &Robot<f64>, refs: &[Reference], references:
         straight.map(|s| forecast::Nominal::new(&case.references, s, track.unwrap_or(2.0 * robot.half_track)));
     let shares = |runs: &[SpeedRun]| runs.iter().filter_map(|run| run.gyro_share).collect::<Vec<_>>();
     let gyro = gyro_beside_pose::compared(shares(&case.references), shares(&case.recordings));
-    let mut out = Loads { references, gyro, ..Loads::default() };
+    let mut out = Loads { gyro, ..known };
     for run in &case.recordings {
         out.turning_changes.extend(scrub::turning_changes(run, robot, turning_load, sides));
         let alike = (0..run.time.len()).all(|i| run.difference(i).abs() < 1e-9);

@@ -2,7 +2,7 @@
 //! something stand.
 
 use inference::robust::median;
-use verdict::{Changes, LoadChange, Standstill};
+use verdict::{Changes, LoadChange, Loads, Standstill};
 
 use crate::attitude::Attitude;
 use crate::changed::{changed_rows, slopes_lead};
@@ -12,12 +12,29 @@ use crate::run::SpeedRun;
 use crate::settings::NAMING;
 use crate::slope_pull::take_off_row;
 use crate::straight::readings;
+use crate::{SteadyCase, body_pull, one_side, plane, pulses, tipping};
+
+/// Finds what is told by itself and takes it out of the recordings, so that all that follows is of level ground, of a unit that stands
+/// upright and of drives that nothing pulls: units that tip, loads that pulse, a slope or a pull under all driving, changes inside
+/// recordings. `weight` is `m g r`, N m, with the share by which torques may be off against it, `radius` that of the wheels, m.
+pub(crate) fn take_out(case: &mut SteadyCase, usual: &Usual, (weight, radius): ((f64, f64), f64)) -> Loads {
+    let SteadyCase { references, recordings, torque_sigma, .. } = case;
+    let tipped = tipping::take_out(recordings, usual, weight.0);
+    let pulsing = pulses::pulsing(references, recordings, usual, (radius, *torque_sigma));
+    let slope = plane::take_off(recordings, usual, weight);
+    // What pulses pulls, too, and is told so.
+    let is_open = slope.is_none() && pulsing.is_empty();
+    let pull = is_open.then(|| body_pull::take_off(references, recordings, usual, (weight, radius))).flatten();
+    let (changes, standstills) = mark(recordings, usual, weight.0);
+    let side_changes = one_side::mark(recordings, *torque_sigma);
+    Loads { tipped, pulsing, slope, pull, changes, standstills, side_changes, ..Loads::default() }
+}
 
 /// Finds the changes of the straight load inside these recordings, and marks their rows so that the load of the whole
 /// recording is measured without them. A change that covers most of the straight driving is not marked: it is that load, less what
 /// slopes pull whose tilt is measured.
 /// Also where bodies stand that nothing but pushing against something explains: those rows are left out of all else.
-pub(crate) fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Changes, Vec<Standstill>) {
+fn mark(runs: &mut [SpeedRun], usual: &Usual, weight: f64) -> (Changes, Vec<Standstill>) {
     let mut out = Changes::default();
     let mut standing = Vec::new();
     for run in runs {

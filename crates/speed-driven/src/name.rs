@@ -7,12 +7,14 @@ use rayon::prelude::*;
 use robot_model::effect::Role;
 use robot_model::effect::export::Section;
 use robot_model::effects::grade;
-use verdict::Quantity;
+use verdict::{Loads, Quantity};
 
-use crate::comparison::Comparison;
+use crate::comparison::{Comparison, slope_of_all};
 use crate::model::Measured;
+use crate::run::SpeedRun;
 use crate::settings::NAMING;
 use crate::settings::naming::{EffectFits, Priors};
+use crate::{grounds, heading};
 use inference::hypothesis::{Dose, Free, Place, Variant, variants};
 
 const PRIORS: Priors = NAMING.priors;
@@ -138,6 +140,25 @@ pub(crate) struct Open {
     pub(crate) one_slope: bool,
     /// It begins and ends while the robot drives: only what the ground does.
     pub(crate) of_ground: bool,
+}
+
+impl Open {
+    /// What these recordings leave open, by the differences of their loads; `weight` is `m g r`, N m.
+    pub(crate) fn of(runs: &[SpeedRun], loads: &Loads, differences: &[Difference], weight: f64) -> Self {
+        let compared = differences.iter().map(|d| (d.here.at.quantity, &d.recording));
+        // Ground that begins inside a drive and changes its turns, too, is one cause, and no slope that comes with another.
+        let turns_change = loads.on_grounds && grounds::turn_otherwise(&loads.grounds);
+        let is_off = |slope: f64| runs.iter().any(|run| heading::stays_off_slope(run, slope));
+        let one_slope = !turns_change
+            && heading::may_be_one_slope(compared, runs)
+            && !slope_of_all(differences, weight).is_some_and(is_off);
+        Self { same_robot: false, one_slope, of_ground: false }
+    }
+
+    /// The same where nobody touched the robot, if so.
+    pub(crate) fn same_robot(self, same_robot: bool) -> Self {
+        Self { same_robot, ..self }
+    }
 }
 
 /// Weighs every effect that can be present everywhere, every pair with one of the best, and soft ground against the

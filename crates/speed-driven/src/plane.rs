@@ -3,12 +3,11 @@
 //! On a plane that falls by `θ` a robot that travels at the angle `δ` from uphill needs `S + m g r sin θ cos δ`: more one way, less the
 //! other, below any friction where it is steep. Ground that resists more does so in every direction.
 
-use inference::interpolate;
 use inference::robust::{NINETY, mean, median};
 use verdict::GroundSlope;
 
 use crate::directed_pull::{Stretch, on_one_slope, pull_of, rivals};
-use crate::heading::{apart, directions, headings};
+use crate::heading::{apart, directions, headings, levels_at_rows};
 use crate::pieces::{Usual, class, pieces};
 use crate::run::SpeedRun;
 use crate::settings::{CHANGES, MEASURING, changes::Jumps, changes::Plane};
@@ -25,7 +24,8 @@ struct Found {
     uphill: Vec<Option<f64>>,
 }
 
-fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
+/// Straight driving of a recording, stretch by stretch.
+pub(crate) fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
     let (Some(direction), Some(any)) = (directions(run), usual.any()) else { return Vec::new() };
     let readings = readings(run);
     let levels = levels_at_rows(run);
@@ -44,17 +44,9 @@ fn stretches(run: &SpeedRun, usual: &Usual) -> Vec<Stretch> {
         let lasts = rows.len() as f64 * run.period() >= 2.0 * MEASURING.rows.level_mean;
         let tilt = levels.as_ref().filter(|_| lasts);
         let tilt = tilt.and_then(|level| median(rows.iter().map(|&i| way * level[i])));
-        Some(Stretch { direction: direction[middle], load, usual, tilt, is_bound, way })
+        Some(Stretch { from: run.time[rows[0]], direction: direction[middle], load, usual, tilt, is_bound, way })
     };
     pieces(&run.time, rows, PLANE.gap).into_iter().filter_map(of).collect()
-}
-
-/// Nose up at the rows by an accelerometer, rad; `None` without one.
-fn levels_at_rows(run: &SpeedRun) -> Option<Vec<f64>> {
-    let Some(rates) = &run.body_rates else { return run.level.clone() };
-    let alignment = run.alignment.as_ref()?;
-    let level = rates.level.as_ref()?;
-    Some(run.time.iter().zip(&alignment.lag).map(|(t, lag)| interpolate(&rates.time, level, t + lag)).collect())
 }
 
 /// What an accelerometer says of a slope under all driving.
@@ -98,6 +90,13 @@ fn tilts(all: &[Vec<Stretch>], degrees: f64, uphill: &[Option<f64>]) -> Tilts {
     }
 }
 
+/// What each slope that is tried costs with the price of what it chooses, nats; `weight` is `m g r`, N m.
+pub(crate) fn costs_of_slopes(all: &[Vec<Stretch>], is_unsigned: bool, usual: &Usual, weight: f64) -> Vec<f64> {
+    let steps = (PLANE.steepest / PLANE.step).round() as usize;
+    let on = |degrees: f64| on_one_slope(all, is_unsigned, usual.unequal.ln(), pull_of(weight, degrees)).0;
+    (0..=steps).map(|k| on(PLANE.step * k as f64)).collect()
+}
+
 /// Finds one slope under all driving, if that explains the straight loads and neither level ground nor two grounds do. `weight` is
 /// `m g r`, N m, and by which share torques may be off against it.
 fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> Option<Found> {
@@ -115,10 +114,8 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
 
     // Likeliest slope, by the cost of all recordings.
     let spread = usual.unequal.ln();
-    let pull = |degrees: f64| pull_of(weight, degrees);
-    let on = |degrees: f64| on_one_slope(&all, is_unsigned, spread, pull(degrees));
-    let steps = (PLANE.steepest / PLANE.step).round() as usize;
-    let costs: Vec<f64> = (0..=steps).map(|k| on(PLANE.step * k as f64).0).collect();
+    let costs = costs_of_slopes(&all, is_unsigned, usual, weight);
+    let steps = costs.len() - 1;
     let best = (0..=steps).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
     let slope = PLANE.step * best as f64;
     let gain = rivals(&all, is_unsigned, spread, weight) - costs[best];
@@ -137,7 +134,7 @@ fn find(runs: &[SpeedRun], usual: &Usual, (weight, scale_sigma): (f64, f64)) -> 
         return None;
     }
     let over = || all.iter().flatten().map(|s| s.load / s.usual);
-    let uphill = on(slope).1;
+    let uphill = on_one_slope(&all, is_unsigned, spread, pull_of(weight, slope)).1;
     let tilts = tilts(&all, slope, &uphill);
     if tilts == Tilts::Otherwise {
         return None;
@@ -225,6 +222,7 @@ mod tests {
     fn an_accelerometer_confirms_a_slope_with_a_lean_of_its_own_or_refuses_it() {
         let slope = 3.0_f64;
         let at = |k: u32, tilt: f64| Stretch {
+            from: 0.0,
             direction: 0.9 * f64::from(k),
             load: STRAIGHT,
             usual: STRAIGHT,

@@ -22,6 +22,7 @@ mod correction;
 mod course;
 mod coverage;
 mod diagnosis;
+mod drive;
 mod free_run;
 mod law;
 mod loads;
@@ -47,6 +48,7 @@ pub use correction::{Correction, EffectAt, Side};
 pub use course::{Course, wheel_speeds};
 pub use coverage::{Chosen, ComparedWith, Coverage, Why};
 pub use diagnosis::{Diagnosis, FORMAT, Verdict};
+pub use drive::{BodyPull, Pulsing, Rhythm, Tipped, Unfollowed};
 pub use free_run::FreeRun;
 pub use law::{
     Claim, CommonLaw, Event, FoundEvents, FoundLaw, FoundPlace, LawFreeRun, LawNumber, LawOfFile, Opposed, Shared,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{ClockError, FreeRun, GyroBesidePose, SideDrift, Word, WrongSpeed};
+use crate::{BodyPull, ClockError, FreeRun, GyroBesidePose, Pulsing, SideDrift, Tipped, Unfollowed, Word, WrongSpeed};
 
 /// Loads of a speed-driven case.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,9 @@ pub struct Loads {
     /// One slope under all driving, by loads and directions of travel; its pull is taken off all other loads.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slope: Option<GroundSlope>,
+    /// A pull along the body; it is taken off all other loads.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pull: Option<BodyPull>,
     /// Sides that take another torque from an instant on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub side_changes: Vec<SideChange>,
@@ -51,6 +54,15 @@ pub struct Loads {
     /// Stretches in which the encoder of a side shows another speed than there is; they leave all else.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub wrong_speeds: Vec<WrongSpeed>,
+    /// Sides that do not turn as commanded and move the body with them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unfollowed: Vec<Unfollowed>,
+    /// Straight driving whose load pulses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub pulsing: Vec<Pulsing>,
+    /// Inertial units that tip; what they show is turned upright for all else.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tipped: Vec<Tipped>,
     /// Forecasts of the recordings' last thirds.
     pub forecasts: Vec<Forecast>,
     /// Clocks that were aligned by the turns.

@@ -69,7 +69,23 @@ fn load_changes<'a>(d: &'a Diagnosis, loads: &'a Loads) -> Vec<Stretch<'a>> {
         let what = if names.is_empty() { "no effect of the catalogue fits".to_owned() } else { names.join(" or ") };
         (g.recording.as_str(), "other ground", g.interval, Role::Before, what)
     });
-    let all = grounds.chain(straight).chain(turning).chain(sides).chain(standing).chain(hidden);
+    let unfollowed = loads.unfollowed.iter().flat_map(|u| {
+        let stretches = u.intervals.iter().flat_map(|(name, all)| all.iter().map(move |interval| (name, *interval)));
+        stretches.map(move |(name, interval)| {
+            let what = format!("the {} side does not turn as commanded, at {:.2} N m", u.side, u.torque);
+            (name.as_str(), "commands not followed", interval, Role::Before, what)
+        })
+    });
+    let pulsing = loads.pulsing.iter().map(|p| {
+        let what = format!("rises and falls {:.2} times a second by {:.2} N m (rms)", p.frequency, p.swing[0]);
+        (p.recording.as_str(), "pulsing load", p.interval, Role::Before, what)
+    });
+    let tipped = loads.tipped.iter().map(|t| {
+        let what = format!("the unit has tipped by {:.1}°", t.tilt.to_degrees());
+        (t.recording.as_str(), "inertial unit", t.interval, Role::Before, what)
+    });
+    let drives = unfollowed.chain(pulsing).chain(tipped);
+    let all = grounds.chain(straight).chain(turning).chain(sides).chain(standing).chain(drives).chain(hidden);
     all.map(|(recording, signal, interval, role, what)| {
         (recording, signal, marked(interval, role, text(recording, interval, &what)))
     })
@@ -105,7 +121,7 @@ pub(super) fn timeline(d: &Diagnosis) -> Option<Figure> {
     }
     let rows = lanes.iter().flat_map(|l| &l.spans).map(|s| vec![Cell::from(s.text.as_str())]).collect();
     let caption = if d.steady.is_some() {
-        "Stretches in which the load of a recording changes. Grey: turns or stops, in which no change could have been seen."
+        "Stretches in which the load of a recording changes, or a drive or the inertial unit does. Grey: turns or stops, in which no change could have been seen."
     } else {
         "Stretches in which a signal differs from the calibrated simulation by more than in \
          fault-free drives; of twenty fault-free cases at most one shows any."

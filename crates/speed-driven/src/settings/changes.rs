@@ -136,6 +136,22 @@ pub(super) const fn degrees(x: f64) -> f64 {
         least_gain: f64 = 4.5, "nats", "a look at six robots of another hand that went there and back: 4.7 to 5.7, each with the right angle";
     }
 
+    /// A pull along the body under all driving.
+    pull: Pull {
+        /// Stretches forward, and backward, at least.
+        least_stretches: usize = 2, "1", "guess: one may be another ground";
+        /// Distance of the pulls that are tried, over the usual straight load.
+        step: f64 = 0.05, "1", "numerical";
+        /// The largest of them.
+        most: f64 = 4.0, "1", "guess: as the largest ratio of two grounds";
+        /// Least pull that is told, over the usual straight load, beside references that were driven both ways.
+        least: f64 = 0.25, "1", "guess: as much as cold drive trains change it";
+        /// The same where nothing says how the robot rolls backward.
+        unknown: f64 = 0.5, "1", "guess: gears run unlike both ways";
+        /// Share of the probability that goes to a slope where drives do not tell it from a pull.
+        slope: f64 = 0.67, "1", "guess: ground slopes twice as often as something is tied to a robot";
+    }
+
     /// The piecewise constant course of a load.
     levels: Levels {
         /// Lowest and highest level of the grid, as multiples of the usual load.
@@ -176,6 +192,8 @@ pub(super) const fn degrees(x: f64) -> f64 {
         neighbour: f64 = 0.5, "1", "guess";
         /// Headings this far apart tell a slope from the ground.
         other_heading: f64 = std::f64::consts::FRAC_PI_3, "rad", "guess";
+        /// Share of a slope by which the measured tilt has to differ from it to contradict it.
+        off_slope: f64 = 0.5, "1", "definition: nearer to level ground than to the slope";
         /// So much straight driving in another heading rules out that one slope is under all of it.
         elsewhere: f64 = 5.0, "s", "guess";
         /// Headings this far apart are the way back.
@@ -234,6 +252,64 @@ pub(super) const fn degrees(x: f64) -> f64 {
         even: f64 = 0.36, "1", "guess";
         /// Speed below which nothing says which way the robot travels.
         least_speed: f64 = 0.02, "m/s", "guess";
+    }
+
+    /// An inertial unit that tips.
+    tipping: Tipping {
+        /// Angle that is told, at least.
+        least: f64 = degrees(2.0), "rad", "guess; less may be what the ground does";
+        /// Scatter of the tilt before and after, over the angle, up to which it is one step.
+        scatter: f64 = 0.3, "1", "guess; slopes change with the heading";
+        /// Driving before and after at least.
+        beside: f64 = 10.0, "s", "guess";
+        /// What a slope of the angle would do to the straight load, over the usual one, at least.
+        least_pull: f64 = 0.5, "1", "guess: more than cold drive trains do";
+        /// What the loads leave once the unit is taken to have tipped, over what they leave of slopes alone, squared, at most.
+        left: f64 = 0.25, "1", "guess: half the deviation";
+    }
+
+    /// A side that does not turn as commanded and moves the body with it.
+    following: Following {
+        /// Share of the commanded speed by which it turns faster or slower.
+        off: f64 = 0.25, "1", "guess; a controller that follows slowly is within a tenth";
+        /// For how long at least, all stretches together.
+        least: f64 = 3.0, "s", "guess, as of a body that stands";
+        /// Share of the settled driving in which references show the same, over the recordings'.
+        usual: f64 = 0.2, "1", "guess";
+        /// Rows of one stretch are at most this far apart.
+        apart: f64 = 1.0, "s", "guess";
+        /// Scatter of a torque that a motor does not exceed, over it.
+        level: f64 = 0.15, "1", "guess: noise of currents, and a limit that warms";
+        /// Torque beside these stretches over that in them up to which it is the most that the motor gives.
+        most: f64 = 1.3, "1", "guess: noise of single readings, and a limit that warms";
+        /// Quantile of the shares of the commanded speed that is told as the largest; the smallest is as far from the other end.
+        shares: f64 = 0.95, "1", "definition of a 90 % range";
+    }
+
+    /// Straight driving whose load rises and falls again and again.
+    pulses: Pulses {
+        /// How long the commanded speeds must have been constant.
+        settled: f64 = 2.0, "s", "guess: slow controllers let go of what they needed in a turn over seconds";
+        /// Length of the stretches that are looked at, at least.
+        stretch: f64 = 4.0, "s", "guess: two periods of the slowest";
+        /// The same at most: longer ones are cut.
+        longest: f64 = 20.0, "s", "guess: what pulls does not keep its time for ever";
+        /// All of them together, at least.
+        least: f64 = 8.0, "s", "guess: two stretches";
+        /// Lowest and highest frequency that is looked for; the highest is also a quarter of the rows' rate at most.
+        band: [f64; 2] = [0.4, 5.0], "Hz", "guess: hoses, hitches and wheels";
+        /// Step of the frequencies that are tried, over one by the length of a stretch.
+        step: f64 = 0.25, "1", "definition: a quarter of a period is lost at most";
+        /// Share of the load's variance that the best frequency takes.
+        share: f64 = 0.5, "1", "guess: rough ground has none that does";
+        /// Root mean square of the load about its mean over the usual one.
+        clear: f64 = 3.0, "1", "guess";
+        /// The same over the usual straight load.
+        least_share: f64 = 0.25, "1", "guess: as much as cold drive trains change it";
+        /// Scatter of the frequency, or of it over the speed, over stretches up to which it is one.
+        alike: f64 = 0.1, "1", "guess";
+        /// Ratio of the fastest to the slowest stretch from which speeds tell the one from the other.
+        speeds: f64 = 1.3, "1", "guess: three times the scatter";
     }
 
     /// A body that does not turn with its wheels.
