@@ -10,7 +10,7 @@ use inference::robust::{NINETY, mean};
 use robot_model::effects::{constant_pull, grade};
 use verdict::{BodyPull, Cause};
 
-use crate::directed_pull::{Stretch, on_level_ground, on_two_grounds, ratios_tried};
+use crate::directed_pull::{Stretch, on_level_ground, on_two_grounds, onset, ratios_tried};
 use crate::heading::stays_off_slope_ahead;
 use crate::pieces::Usual;
 use crate::plane::{costs_of_slopes, stretches};
@@ -84,18 +84,6 @@ impl Found {
     }
 }
 
-/// From when on a pull explains a recording best, and what that costs, nats: from its beginning on, from a stretch on, or never.
-fn onset(stretches: &[Stretch], is_unsigned: bool, spread: f64, pull: f64) -> (f64, Option<f64>) {
-    let on = |from: f64| {
-        let pulled = |s: &Stretch| Stretch { way: if s.from < from { 0.0 } else { s.way }, ..s.clone() };
-        on_level_ground(&[stretches.iter().map(pulled).collect()], is_unsigned, spread, (1.0, pull))
-    };
-    let whole = (on(f64::NEG_INFINITY), Some(f64::NEG_INFINITY));
-    let later = stretches.iter().skip(1).map(|s| (on(s.from) + PLANE.per_number, Some(s.from)));
-    let never = (on(f64::INFINITY) + PLANE.per_number, None);
-    later.chain([never]).fold(whole, |best, other| if other.0 < best.0 { other } else { best })
-}
-
 fn of(runs: &[SpeedRun], usual: &Usual) -> Option<Found> {
     let is_unsigned = runs.iter().any(|run| run.magnitude_only);
     let all: Vec<Vec<Stretch>> = runs.iter().map(|run| stretches(run, usual)).collect();
@@ -104,6 +92,10 @@ fn of(runs: &[SpeedRun], usual: &Usual) -> Option<Found> {
     let steps = (PULL.most / PULL.step).round() as i32;
     let pulls: Vec<f64> = (-steps..=steps).map(|k| PULL.step * f64::from(k) * any).collect();
     let onsets = |pull: f64| all.iter().map(move |own| onset(own, is_unsigned, spread, pull));
+    let begins = |own: &[Stretch], k: usize| match k {
+        0 => Some(f64::NEG_INFINITY),
+        k => own.get(k).map(|s| s.from),
+    };
     let costs: Vec<f64> = pulls.iter().map(|pull| onsets(*pull).map(|(cost, _)| cost).sum()).collect();
     let best = (0..pulls.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]))?;
     let cost = costs[best] + PLANE.per_number;
@@ -114,7 +106,7 @@ fn of(runs: &[SpeedRun], usual: &Usual) -> Option<Found> {
     let holds = |k: &usize| costs[*k] <= costs[best] + 0.5 * NINETY * NINETY;
     let below = (0..best).rev().take_while(holds).last().unwrap_or(best);
     let above = (best..pulls.len()).take_while(holds).last().unwrap_or(best);
-    let from: Vec<Option<f64>> = onsets(pulls[best]).map(|(_, from)| from).collect();
+    let from: Vec<Option<f64>> = all.iter().zip(onsets(pulls[best])).map(|(own, (_, k))| begins(own, k)).collect();
     let pulled: Vec<&Stretch> = all
         .iter()
         .zip(&from)
@@ -194,14 +186,6 @@ pub(crate) fn causes(p: &BodyPull, probability: f64) -> Vec<Cause> {
 pub(crate) fn told(p: &BodyPull, theirs: &str) -> String {
     let [ahead, back] = p.ratios;
     let towards = if p.pull > 0.0 { "rear" } else { "front" };
-    let what = match p.may_be_slope {
-        None => "in every heading, so that it is no slope: a rope, a hose, a trailer, or a drive train that runs harder one way".to_owned(),
-        Some(angle) => format!(
-            "or a slope of {:.1}° that all of these drives go up and down; they do not tell the two apart. To find out, drive forward and \
-             backward across that line, too, or record an accelerometer",
-            angle.to_degrees()
-        ),
-    };
     let when = |(name, all): (&String, &Vec<[f64; 2]>)| {
         let [from, until] = all.first().copied().unwrap_or_default();
         format!("{} from {from:.1} s until {until:.1} s", recordings(name))
@@ -209,13 +193,23 @@ pub(crate) fn told(p: &BodyPull, theirs: &str) -> String {
     let stretches: Vec<String> = p.intervals.iter().map(when).collect();
     let place =
         if stretches.is_empty() { "under all driving".to_owned() } else { format!("in {}", stretches.join(", in ")) };
-    format!(
-        "Pull {place}: the straight load is {ahead:.2} times {theirs} forward and {back:.2} times backward ({} stretches), as by \
-         a force of {:.0} ± {:.0} N (90 %) towards the {towards} of the robot, {what}. It is taken off all loads below.",
-        p.stretches,
-        p.pull.abs(),
-        p.half
-    )
+    let loads = format!(
+        "{place}: the straight load is {ahead:.2} times {theirs} forward and {back:.2} times backward ({} stretches)",
+        p.stretches
+    );
+    let force = format!("a force of {:.0} ± {:.0} N (90 %) towards the {towards} of the robot", p.pull.abs(), p.half);
+    match p.may_be_slope {
+        None => format!(
+            "Pull {loads}, as by {force}, in every heading, so that it is no slope: a rope, a hose, a trailer, or a drive train that runs \
+             harder one way. It is taken off all loads below."
+        ),
+        Some(angle) => format!(
+            "Slope or pull {loads}, as on a slope of {:.1}° that all of these drives go up and down, or by {force}; they do not tell the \
+             two apart. To find out, drive forward and backward across that line, too, or record an accelerometer. It is taken off all \
+             loads below.",
+            angle.to_degrees()
+        ),
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use crate::settings::{CHANGES, changes::Plane};
 const PLANE: Plane = CHANGES.plane;
 
 /// A stretch of straight driving: from when, s; where it goes, rad; its load and the references' at its speed, N m; whether that is only a bound.
-#[derive(Debug, Clone)]
 pub(crate) struct Stretch {
     pub(crate) from: f64,
     pub(crate) direction: f64,
@@ -88,6 +87,29 @@ pub(crate) fn on_level_ground(all: &[Vec<Stretch>], is_unsigned: bool, spread: f
         levels(spread).map(of_level).fold(f64::MAX, f64::min)
     };
     all.iter().map(of_run).sum()
+}
+
+/// From which stretch on something holds a robot back by `pull` on its usual ground, whichever way it looks, and what that costs, nats: from
+/// the first one on for nothing, from a later one or never for the price of a number.
+pub(crate) fn onset(stretches: &[Stretch], is_unsigned: bool, spread: f64, pull: f64) -> (f64, usize) {
+    let mut best = (f64::MAX, 0);
+    for (level, price) in levels(spread) {
+        let misfits = |pull: f64| -> Vec<f64> {
+            stretches.iter().map(|s| misfit(s, is_unsigned, level, [pull * s.way, 0.0])).collect()
+        };
+        let (free, pulled) = (misfits(0.0), misfits(pull));
+        let mut cost = price + pulled.iter().sum::<f64>();
+        for k in 0..=stretches.len() {
+            let chosen = if k == 0 { 0.0 } else { PLANE.per_number };
+            if cost + chosen < best.0 {
+                best = (cost + chosen, k);
+            }
+            if let (Some(free), Some(pulled)) = (free.get(k), pulled.get(k)) {
+                cost += free - pulled;
+            }
+        }
+    }
+    best
 }
 
 /// The best fit of recordings on level ground of which parts resist `ratio` times as much, nats.

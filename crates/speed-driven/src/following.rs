@@ -110,7 +110,8 @@ pub(crate) fn told(u: &Unfollowed) -> String {
         "that is the same in all of these stretches, and it gives no more beside them: the motor is at a limit (of its \
          controller, by heat, or by a low supply). Look at the drive; the simulation needs this limit, not another ground"
     } else {
-        "which is no one value: look at the drive, its gear and what it pushes against before you change the simulation"
+        "which is no one value: look at the drive, at what it pushes against, and at whether something else commanded it, before you change \
+         the simulation"
     };
     format!(
         "Commands are not followed: in {} the {side} side turns at {least:.2} to {most:.2} times the speed that is commanded, {seconds:.0} s in \

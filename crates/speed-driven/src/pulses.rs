@@ -30,9 +30,16 @@ struct Stretch {
     /// Mean straight load in the direction of travel, N m, and the root mean square about it.
     load: f64,
     swing: f64,
-    /// Hz, and the share of the variance that it takes.
+    /// Times, s, and what the mean and the trend leave of the load then, N m.
+    rest: [Vec<f64>; 2],
+    /// Rate of the rows, Hz.
+    rate: f64,
+}
+
+/// A stretch whose load rises and falls, and how often, Hz.
+struct Pulse {
+    of: Stretch,
     frequency: f64,
-    share: f64,
 }
 
 /// Recordings whose straight load pulses more than that of the references does; `radius` of the wheels in m, and by which share torques
@@ -45,14 +52,18 @@ pub(crate) fn pulsing(
 ) -> Vec<Pulsing> {
     let calm = median(references.iter().flat_map(stretches).map(|s| s.swing));
     let (Some(calm), Some(any)) = (calm, usual.any()) else { return Vec::new() };
-    let pulses =
-        |s: &Stretch| s.share >= PULSES.share && s.swing >= PULSES.clear * calm && s.swing >= PULSES.least_share * any;
+    let is_large = |s: &Stretch| s.swing >= PULSES.clear * calm && s.swing >= PULSES.least_share * any;
+    let pulse = |of: Stretch| {
+        let (frequency, share) = is_large(&of).then(|| strongest(&of)).flatten()?;
+        (share >= PULSES.share).then_some(Pulse { of, frequency })
+    };
     let told = |run: &SpeedRun| {
-        let found: Vec<Stretch> = stretches(run).into_iter().filter(pulses).collect();
+        let pulses: Vec<Pulse> = stretches(run).into_iter().filter_map(pulse).collect();
+        let found: Vec<&Stretch> = pulses.iter().map(|p| &p.of).collect();
         let seconds: f64 = found.iter().map(|s| s.seconds).sum();
         let (first, last) = (found.first()?, found.last()?);
         let over = |s: &Stretch| s.load / usual.load[class(s.speed.abs())].unwrap_or(any);
-        let towards = |way: f64| found.iter().filter(move |s| s.speed * way > 0.0);
+        let towards = |way: f64| found.iter().copied().filter(move |s| s.speed * way > 0.0);
         // By how much more than usual the robot takes, N: a pull is that one way, and as much less the other.
         let more = |way: f64| -> Vec<f64> { towards(way).map(|s| s.load * (1.0 - 1.0 / over(s)) / radius).collect() };
         let [ahead, back] = [1.0, -1.0].map(|way| mean_with_error(&more(way)));
@@ -64,8 +75,8 @@ pub(crate) fn pulsing(
             interval: [first.interval[0], last.interval[1]],
             seconds,
             swing: [mean(found.iter().map(|s| s.swing)).unwrap_or(0.0), calm],
-            frequency: mean(found.iter().map(|s| s.frequency)).unwrap_or(0.0),
-            rhythm: rhythm(&found, radius),
+            frequency: mean(pulses.iter().map(|p| p.frequency)).unwrap_or(0.0),
+            rhythm: rhythm(&pulses, radius),
             ratio: [1.0, -1.0].map(|way| mean(towards(way).map(over))),
             pull,
             half,
@@ -75,16 +86,16 @@ pub(crate) fn pulsing(
 }
 
 /// What the frequency of these stretches goes with.
-fn rhythm(found: &[Stretch], radius: f64) -> Rhythm {
+fn rhythm(pulses: &[Pulse], radius: f64) -> Rhythm {
     let scatter_of = |values: &[f64]| {
         let middle = median(values.iter().copied())?;
         Some((middle, MAD_TO_SIGMA * median_absolute_deviation(values)? / middle))
     };
-    let of = |value: &dyn Fn(&Stretch) -> f64| scatter_of(&found.iter().map(value).collect::<Vec<f64>>());
-    let speeds = || found.iter().map(|s| s.speed.abs());
+    let of = |value: &dyn Fn(&Pulse) -> f64| scatter_of(&pulses.iter().map(value).collect::<Vec<f64>>());
+    let speeds = || pulses.iter().map(|p| p.of.speed.abs());
     let is_unlike = speeds().fold(0.0, f64::max) >= PULSES.speeds * speeds().fold(f64::MAX, f64::min);
-    let of_wheel = of(&|s| s.frequency * TAU * radius / s.speed.abs());
-    match (of(&|s| s.frequency), of_wheel) {
+    let of_wheel = of(&|p| p.frequency * TAU * radius / p.of.speed.abs());
+    match (of(&|p| p.frequency), of_wheel) {
         (Some((_, by_time)), Some((turns, by_turn))) if is_unlike && by_time.min(by_turn) <= PULSES.alike => {
             if by_turn < by_time { Rhythm::Wheel(turns) } else { Rhythm::Time }
         }
@@ -101,13 +112,13 @@ pub(crate) fn causes(p: &Pulsing, probability: f64) -> Vec<Cause> {
     };
     match (p.rhythm, p.pull) {
         (Rhythm::Wheel(_), _) => [&wheel_eccentricity::SPEC, &drivetrain_ripple::SPEC].map(|s| known(s, 2.0)).into(),
-        (_, Some(pull)) => vec![Cause {
+        (_, Some(pull)) if p.half.is_some_and(|half| pull.abs() > half) => vec![Cause {
             magnitude: Some(pull),
             sigma: p.half.map(|half| half / NINETY),
             unit: constant_pull::SPEC.parameters[0].unit.into(),
             ..known(&constant_pull::SPEC, 1.0)
         }],
-        (_, None) => {
+        _ => {
             let unlisted = Cause::plain(UNKNOWN.id, UNKNOWN.name, probability);
             vec![Cause { intervals: Some(intervals), ..unlisted }]
         }
@@ -134,7 +145,8 @@ pub(crate) fn told(p: &Pulsing) -> String {
                 .to_owned()
         }
     };
-    let mean = match (p.ratio, p.pull) {
+    let is_pull = |pull: &f64| p.half.is_some_and(|half| pull.abs() > half);
+    let mean = match (p.ratio, p.pull.filter(is_pull)) {
         ([Some(ahead), Some(back)], Some(pull)) => format!(
             " On the average the straight load is {ahead:.2} times the usual one forward and {back:.2} times backward: a pull of {:.0} ± {:.0} N \
              (90 %) towards the {}.",
@@ -190,8 +202,7 @@ fn of_rows(run: &SpeedRun, set: &[Vec<f64>; 2], rows: &[usize]) -> Option<Stretc
     let loads: Vec<f64> = rows.iter().map(of_row).collect();
     let (load, rest) = without_trend(&time, &loads)?;
     let swing = mean(rest.iter().map(|x| x * x))?.sqrt();
-    let (frequency, share) = strongest(&time, &rest, 0.25 / run.period())?;
-    Some(Stretch { interval, seconds, speed, load, swing, frequency, share })
+    Some(Stretch { interval, seconds, speed, load, swing, rest: [time, rest], rate: 1.0 / run.period() })
 }
 
 /// Mean of a series, and what it leaves with its trend.
@@ -202,17 +213,18 @@ fn without_trend(time: &[f64], series: &[f64]) -> Option<(f64, Vec<f64>)> {
     Some((level, pairs().map(|(t, x)| x - trend * t).collect()))
 }
 
-/// The frequency below `highest` that takes the largest share of the variance, Hz, and that share.
-fn strongest(time: &[f64], series: &[f64], highest: f64) -> Option<(f64, f64)> {
+/// The frequency up to a quarter of the rows' rate that takes the largest share of the variance, Hz, and that share.
+fn strongest(s: &Stretch) -> Option<(f64, f64)> {
+    let [time, rest] = &s.rest;
     let [low, high] = PULSES.band;
-    let power: f64 = series.iter().map(|x| x * x).sum();
-    let step = PULSES.step / (time.last()? - time.first()?);
-    let tried = (0..=((high - low) / step) as usize).map(|k| low + step * k as f64);
+    let power: f64 = rest.iter().map(|x| x * x).sum();
+    let step = PULSES.step / s.seconds;
+    let tried = (0..=((high.min(PULSES.highest * s.rate) - low) / step) as usize).map(|k| low + step * k as f64);
     let share = |f: f64| {
-        let sum = |of: fn(f64) -> f64| time.iter().zip(series).map(|(t, x)| of(TAU * f * t) * x).sum::<f64>();
-        2.0 * (sum(f64::cos).powi(2) + sum(f64::sin).powi(2)) / (series.len() as f64 * power)
+        let sum = |of: fn(f64) -> f64| time.iter().zip(rest).map(|(t, x)| of(TAU * f * t) * x).sum::<f64>();
+        2.0 * (sum(f64::cos).powi(2) + sum(f64::sin).powi(2)) / (rest.len() as f64 * power)
     };
-    tried.take_while(|f| *f <= highest).map(|f| (f, share(f))).max_by(|a, b| a.1.total_cmp(&b.1))
+    tried.map(|f| (f, share(f))).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 #[cfg(test)]
@@ -268,6 +280,15 @@ mod tests {
         assert!(matches!(found[0].rhythm, Rhythm::Wheel(turns) if (turns - 4.0).abs() < 0.3), "{found:?}");
         let ids: Vec<String> = causes(&found[0], 0.9).into_iter().map(|c| c.effect).collect();
         assert_eq!(ids, ["wheel_eccentricity", "drivetrain_ripple"]);
+
+        // As much one way as the other: no pull.
+        let shaken = pulled(|t, _| 3.0 * (TAU * 0.9 * t).sin());
+        let ids: Vec<String> = pulsing(&calm, &[shaken], &USUAL, (RADIUS, 0.05))
+            .iter()
+            .flat_map(|p| causes(p, 0.9))
+            .map(|c| c.effect)
+            .collect();
+        assert_eq!(ids, [UNKNOWN.id]);
 
         let rough = pulled(|t, _| 3.0 * ((37.0 * t).sin() + (23.7 * t * t).sin() + (7.1 * t * t).cos()));
         assert_eq!(pulsing(&calm, &[rough], &USUAL, (RADIUS, 0.05)), []);

@@ -296,8 +296,10 @@ pub(super) const fn degrees(x: f64) -> f64 {
         longest: f64 = 20.0, "s", "guess: what pulls does not keep its time for ever";
         /// All of them together, at least.
         least: f64 = 8.0, "s", "guess: two stretches";
-        /// Lowest and highest frequency that is looked for; the highest is also a quarter of the rows' rate at most.
+        /// Lowest and highest frequency that is looked for.
         band: [f64; 2] = [0.4, 5.0], "Hz", "guess: hoses, hitches and wheels";
+        /// The highest over the rate of the rows, at most.
+        highest: f64 = 0.25, "1", "guess: half of what can be told from rows";
         /// Step of the frequencies that are tried, over one by the length of a stretch.
         step: f64 = 0.25, "1", "definition: a quarter of a period is lost at most";
         /// Share of the load's variance that the best frequency takes.
